@@ -111,7 +111,8 @@ SCENARIO("A stroke whose button was released is kept when its case is closed",
             Document document({.session = session_options(), .documents = temporary_folder()});
             document.open({.path = project});
             while (!document.is_open() || document.busy()) document.poll();
-            document.begin_stroke({.operation = "brush-inflate", .radius = 2.0, .strength = 0.5});
+            document.begin_stroke({.operation = "brush-inflate", .radius = 2.0, .strength = 0.5},
+                                  Step::LocalRepair);
             document.add_dab({.point = {4, 0, 15}, .normal = {1, 0, 0}});
             while (started && document.take_moves().empty()) document.poll();
             document.end_stroke();

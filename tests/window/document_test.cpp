@@ -143,9 +143,12 @@ SCENARIO("A stroke stays in view although edits behind it become pending", "[win
     REQUIRE(wait_for_rest(document));
     document.apply("tetrahedralize", {}, Step::Product);
     REQUIRE(wait_for_rest(document));
+    document.stand_before(EditSite{.edit = {}, .step = Step::LocalRepair});
+    REQUIRE(wait_for_rest(document));
     const Surface before = *document.shown()->surface;
     REQUIRE(document.can_paint());
-    document.begin_stroke({.operation = "brush-inflate", .radius = 2.0, .strength = 0.5});
+    document.begin_stroke({.operation = "brush-inflate", .radius = 2.0, .strength = 0.5},
+                          Step::LocalRepair);
     document.add_dab({.point = {4, 0, 15}, .normal = {1, 0, 0}});
     REQUIRE(poll_until(document, [&] { return !document.take_moves().empty(); }));
     document.end_stroke();
@@ -159,7 +162,8 @@ SCENARIO("A stroke stays in view although edits behind it become pending", "[win
     }));
     CHECK(seen);
     CHECK(ready);
-    CHECK(pending_count(*document.snapshot(), document.variant()) > 0);
+    CHECK(document.snapshot()->log[1].edit.place.step == Step::LocalRepair);
+    CHECK(pending_count(*document.snapshot(), document.variant()) == 2);
 }
 
 SCENARIO("A request that ends while others are collected is not lost", "[window][document]") {

@@ -110,7 +110,7 @@ void BundledCase::brush() {
     const double bump = bump_side(surface());
     paint(kBump - Vec3(0, 0, 1), kBump + Vec3(0, 0, 1));
     CHECK(bump_side(surface()) > bump + 0.1);
-    CHECK(last().edit.place.step == Step::Openings);
+    CHECK(last().edit.place.step == Step::LocalRepair);
     choose(window, "local-repair", "brush-inflate");
     REQUIRE(window.fill_item("field.strength", "1"));
     look_from(keys::k0 + 3, {});

@@ -9,21 +9,31 @@
 
 namespace vesselbench {
 
+namespace {
+
+bool is_own_step(Step step, const History& history) {
+    return belongs_to_variant(step) && step >= history.first_variant_step();
+}
+
+}  // namespace
+
+EditPlace place_of_new(Step step, const std::string& variant, const History& history) {
+    return {step, is_own_step(step, history) ? variant : std::string()};
+}
+
 EditPlace place_of(const Operation& operation, const EditOptions& options, const History& history) {
-    EditPlace place{options.step.value_or(operation.usual_step), {}};
-    if (std::find(operation.allowed.begin(), operation.allowed.end(), place.step) ==
-        operation.allowed.end())
-        throw UsageError(operation.name + " is not allowed in step " + to_string(place.step) +
+    const Step step = options.step.value_or(operation.usual_step);
+    if (std::ranges::count(operation.allowed, step) == 0)
+        throw UsageError(operation.name + " is not allowed in step " + to_string(step) +
                          " (only in: " + joined(step_names(operation.allowed)) + ")");
-    if (!belongs_to_variant(place.step) || place.step < history.first_variant_step()) return place;
+    if (!is_own_step(step, history)) return {step, {}};
     if (options.variant.empty())
-        throw UsageError("step " + to_string(place.step) +
+        throw UsageError("step " + to_string(step) +
                          " belongs to a variant; give its name (cfd, rp, ...)");
     if (!is_plain_name(options.variant))
         throw UsageError("the variant '" + shortened(printable(options.variant)) +
                          "' is not allowed: its name consists of " + plain_name_rule());
-    place.variant = options.variant;
-    return place;
+    return {step, options.variant};
 }
 
 /// The entries that precede a new edit of this place.

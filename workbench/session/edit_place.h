@@ -7,6 +7,10 @@
 
 namespace vesselbench {
 
+/// The place of a new edit of a step: in the variant if the step's edits belong to one, else in the
+/// trunk.
+[[nodiscard]] EditPlace place_of_new(Step step, const std::string& variant, const History& history);
+
 /// The place of a new edit of an operation in the current state.
 /// \throw UsageError if the step is not allowed, or belongs to a variant and none is given
 [[nodiscard]] EditPlace place_of(const Operation& operation, const EditOptions& options,

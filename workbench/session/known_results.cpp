@@ -2,8 +2,6 @@
 
 namespace vesselbench {
 
-namespace {
-
 ResultId known_end(const std::vector<HistoryEntry>& line) {
     ResultId end = 0;
     for (const HistoryEntry& entry : line) {
@@ -12,8 +10,6 @@ ResultId known_end(const std::vector<HistoryEntry>& line) {
     }
     return end;
 }
-
-}  // namespace
 
 std::vector<ResultId> known_results(History history, const std::vector<StateId>& states,
                                     const std::string& variant) {

@@ -7,6 +7,10 @@
 
 namespace vesselbench {
 
+/// The last result of a line of edits that is known: the one before its first pending edit. 0: the
+/// empty scene.
+[[nodiscard]] ResultId known_end(const std::vector<HistoryEntry>& line);
+
 /// For each of some states, the last result of a variant that is known there: the one before its
 /// first pending edit. 0: the empty scene.
 /// \throw UsageError if there is no such state

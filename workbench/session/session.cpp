@@ -332,6 +332,12 @@ Scene Session::known_scene(StateId state, const std::string& variant, Progress p
     return parts_->runner.load(end, progress);
 }
 
+Scene Session::result_scene(ResultId id, Progress progress) {
+    if (id != 0 && !parts_->store.history().results().contains(id))
+        throw UsageError("there is no result " + std::to_string(id));
+    return parts_->runner.load(id, progress);
+}
+
 void Session::set_note(EditRef edit, const std::string& note) {
     if (!parts_->store.history().edits().contains(edit))
         throw UsageError("there is no revision " + std::to_string(edit.revision) + " of edit " +

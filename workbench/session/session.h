@@ -118,6 +118,10 @@ public:
     [[nodiscard]] Scene known_scene(StateId state, const std::string& variant = kDefaultVariant,
                                     Progress progress = {});
 
+    /// The scene of a result, which any state may have. Runs nothing, and the current state stays.
+    /// \throw UsageError if there is no such result
+    [[nodiscard]] Scene result_scene(ResultId id, Progress progress = {});
+
     /// Replaces the note on a revision of an edit of any state; empty: none. No state is made: a
     /// note changes no model.
     /// \throw UsageError if there is no such edit; IoError if the session only reads or the project

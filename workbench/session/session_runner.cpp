@@ -115,6 +115,12 @@ Task<Scene> SessionRunner::scene_after(EditId id) {
     });
 }
 
+Task<Scene> SessionRunner::result_scene(ResultId id) {
+    return submit([id](Session& session, const Progress& progress) {
+        return session.result_scene(id, progress);
+    });
+}
+
 Task<std::vector<ReplayEntry>> SessionRunner::replay() {
     return submit(
         [](Session& session, const Progress& progress) { return session.replay(progress); });

@@ -65,6 +65,7 @@ public:
     Task<Nothing> jump(StateId state);
     Task<Scene> scene(std::string variant = kDefaultVariant);
     Task<Scene> scene_after(EditId id);
+    Task<Scene> result_scene(ResultId id);
     Task<std::vector<ReplayEntry>> replay();
     Task<Nothing> save_as(std::filesystem::path project);
 

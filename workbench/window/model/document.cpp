@@ -11,7 +11,6 @@
 #include "workbench/case/purposes.h"
 #include "workbench/export/export_formats.h"
 #include "workbench/export/products.h"
-#include "workbench/operations/table.h"
 #include "workbench/prepare/prepared_purposes.h"
 #include "workbench/session/stored_texts.h"
 #include "workbench/window/model/rail.h"
@@ -192,6 +191,16 @@ void Document::show_variant(const std::string& variant) {
     shown_.follow(snapshot_, variant_);
 }
 
+const EditInput* Document::stands_before() const {
+    const std::optional<EditInput>& input = shown_.input();
+    return input && is_earlier(*input) ? &*input : nullptr;
+}
+
+std::string Document::why_not_input() const {
+    const std::optional<EditInput>& input = shown_.input();
+    return input && input->has_pending ? "edits before it are pending: run them first" : "";
+}
+
 const Scene* Document::shown() const {
     if (shown_.previewed() || strokes_.scene() == nullptr) return shown_.scene();
     return strokes_.scene();
@@ -321,7 +330,7 @@ void Document::run_pending() {
     if (!begin_request(RequestKind::Edit)) return;
     watch(runner_->scene(variant_), {.what = "Running pending edits"},
           [this, before = snapshot_](const Scene& scene) {
-              if (pending_count(*snapshot_, variant_) == 0) shown_.set(scene);
+              if (pending_count(*snapshot_, variant_) == 0) shown_.offer_newest(scene);
               tell_run(*before);
           });
 }
@@ -419,7 +428,8 @@ void Document::cancel_preview() {
 
 ResumedRecipe Document::to_prepare(const std::string& purpose,
                                    std::optional<Step> again_from) const {
-    ResumedRecipe resumed = missing_entries(*snapshot_, input_, current(), purpose, prepared_);
+    const Scene* scene = newest() != nullptr ? newest() : current();
+    ResumedRecipe resumed = missing_entries(*snapshot_, input_, scene, purpose, prepared_);
     if (again_from) resumed.rest = rest_from(*again_from, resumed);
     return resumed;
 }
@@ -509,23 +519,12 @@ void Document::end_preparation() {
 bool Document::can_paint() const {
     const Scene* scene = current();
     return scene != nullptr && scene->surface && !previewed() && !is_opening() &&
-           snapshot_->read_only_reason.empty() && requests_.empty() && !shown_.outdated();
+           snapshot_->read_only_reason.empty() && requests_.empty() && !is_reading() &&
+           why_not_input().empty();
 }
 
-/// The last edit's step: what is painted on is the shown surface, not an earlier one.
-Step Document::stroke_step(const std::string& operation) const {
-    const Operation& brush = find_operation(operation);
-    Step last = brush.usual_step, step = brush.usual_step;
-    for (const HistoryEntry& entry : snapshot_->history->line(variant_))
-        if (entry.status == EditStatus::Done) last = std::max(last, entry.place.step);
-    for (const Step allowed : brush.allowed)
-        if (allowed <= last) step = std::max(step, allowed);
-    return step;
-}
-
-void Document::begin_stroke(StrokeRequest request) {
+void Document::begin_stroke(StrokeRequest request, Step step) {
     if (!can_paint() || is_painting() || !begin_request(RequestKind::Edit)) return;
-    const Step step = stroke_step(request.operation);
     strokes_.begin(*runner_, std::move(request), {.step = step, .variant = variant_});
 }
 
@@ -537,7 +536,8 @@ void Document::drop_stroke() {
 
 void Document::end(const EndedStroke& stroke) {
     if (stroke.entry) {
-        if (stroke.scene) shown_.offer(stroke.entry->edit.edit.id, *stroke.scene);
+        if (stroke.scene && stroke.entry->result)
+            shown_.offer(stroke.entry->result->id, *stroke.scene);
         return tell_entered(*stroke.entry);
     }
     if (stroke.cancelled) tell(make_message(MessageKind::Remark, "Cancelled"));

@@ -71,12 +71,30 @@ public:
 
     // --- what is shown
 
-    /// The preview's scene if there is one, else that of a stroke, else the case's; null while none
+    /// The preview's scene if there is one, else that of a stroke, else current(); null while none
     /// is known.
     [[nodiscard]] const Scene* shown() const;
 
-    /// The scene that a preview replaces.
+    /// The model that forms, handles, marks and searches are about, and that a preview replaces:
+    /// what the edit of stand_before() runs on, else the newest one. The last one stays until
+    /// another is read.
     [[nodiscard]] const Scene* current() const { return shown_.current(); }
+
+    /// Makes what an edit runs on the current model, as long as the case has the edit; none: the
+    /// newest model.
+    void stand_before(const std::optional<EditSite>& site) { shown_.stand_before(site); }
+
+    /// The edit that current() stands before, with those that follow; null: it is the newest model.
+    [[nodiscard]] const EditInput* stands_before() const;
+
+    /// Why what the edit of stand_before() runs on cannot be current(); empty: it can.
+    [[nodiscard]] std::string why_not_input() const;
+
+    /// True while current() is still another model than the one that is meant.
+    [[nodiscard]] bool is_reading() const { return shown_.outdated(); }
+
+    /// The model of the current state, whatever is shown; null while it is not known.
+    [[nodiscard]] const Scene* newest() const { return shown_.newest(); }
 
     /// Counts changes of shown(), without those by dabs of a stroke.
     [[nodiscard]] int scene_changes() const { return shown_.changes() + dropped_strokes_; }
@@ -151,9 +169,8 @@ public:
     /// True if a stroke may begin: of other requests, only strokes are being entered.
     [[nodiscard]] bool can_paint() const;
 
-    /// Begins a stroke in the step of the last edit, if the brush is allowed there. Other requests
-    /// are ignored until it ends.
-    void begin_stroke(StrokeRequest request);
+    /// Begins a stroke, whose edit will belong to a step. Other requests are ignored until it ends.
+    void begin_stroke(StrokeRequest request, Step step);
 
     void add_dab(const StrokePlace& place) { strokes_.add(place); }
 
@@ -210,7 +227,6 @@ private:
     void tell_move(const std::string& verb, const std::string& edits);
     void show(const Preview& preview);
     void cancel_preview();
-    [[nodiscard]] Step stroke_step(const std::string& operation) const;
     void take_opened();
     void show(Opened opened);
     void take_snapshot();

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "geometry/kernel/wording.h"
-#include "workbench/window/model/later_edits.h"
 
 namespace vesselbench {
 
@@ -33,16 +32,9 @@ std::string iso_parameter(const OperationForm& form) {
 std::string reason_against(const LiveSmoothing::Followed& followed) {
     const Document& document = followed.document;
     const Scene* scene = document.current();
-    if (scene == nullptr || !scene->image || scene->image->empty()) return "there is no image yet";
     if (!document.snapshot()) return "no case is open";
-    const auto line = document.snapshot()->history->line(document.variant());
-    const auto edit = followed.form->edit();
-    // The last edit leaves the image as it found it; another one's may have been changed since.
-    if (edit && (line.empty() || line.back().edit.id != *edit))
-        return "edits follow the one being changed: use Preview";
-    if (!edit && edit_behind(line, followed.step) != nullptr)
-        return "edits of later steps follow: use Preview";
-    return "";
+    if (scene == nullptr || !scene->image || scene->image->empty()) return "there is no image yet";
+    return document.why_not_input();
 }
 
 std::shared_ptr<const std::vector<float>> voxels_of(const std::optional<Image>& image) {

@@ -5,7 +5,6 @@
 
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/wording.h"
-#include "workbench/window/model/later_edits.h"
 #include "workbench/window/model/readable.h"
 
 namespace vesselbench {
@@ -34,14 +33,10 @@ LiveSmoothing::LiveSmoothing(std::function<void()> wake, const LiveDevice& devic
 std::string why_not_followed(const LiveSmoothing::Followed& followed) {
     const Document& document = followed.document;
     const Scene* scene = document.current();
-    if (followed.form->edit()) return "an earlier edit is being changed: use Preview";
+    if (!document.snapshot()) return "no case is open";
     if (scene == nullptr || !scene->surface || scene->surface->empty())
         return "there is no surface yet";
-    if (!document.snapshot()) return "no case is open";
-    const auto line = document.snapshot()->history->line(document.variant());
-    if (edit_behind(line, followed.step) != nullptr)
-        return "edits of later steps follow: use Preview";
-    return "";
+    return document.why_not_input();
 }
 
 void LiveSmoothing::take_base(const Followed& followed) {

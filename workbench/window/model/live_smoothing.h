@@ -34,7 +34,6 @@ public:
     struct Followed {
         const Document& document;
         const OperationForm* form = nullptr;  ///< null: none is open
-        Step step = Step::Source;             ///< of the form's edit
         ColouringKind colouring = ColouringKind::Patches;
     };
 

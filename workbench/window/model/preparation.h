@@ -51,7 +51,7 @@ struct Preparation {
 
 /// What is left of a purpose's recipe in a case: its own recipe, else the default one.
 /// \param input with the case's own recipes; none: it has none
-/// \param scene the shown one; null: none
+/// \param scene of the case; null: none
 /// \param done the purposes whose model was made
 [[nodiscard]] ResumedRecipe missing_entries(const Snapshot& snapshot,
                                             const std::optional<Input>& input, const Scene* scene,

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "geometry/kernel/measure.h"
+#include "workbench/session/known_results.h"
 #include "workbench/session/source_counterpart.h"
 #include "workbench/window/model/rail.h"
 
@@ -11,15 +12,8 @@ namespace vesselbench {
 
 namespace {
 
-/// The last edit up to which the variant's model is known.
-std::optional<EditId> last_known(const Snapshot& snapshot, const std::string& variant) {
-    std::optional<EditId> last;
-    for (const HistoryEntry& entry : snapshot.history->line(variant)) {
-        if (entry.status == EditStatus::Pending) break;
-        if (entry.status == EditStatus::Done) last = entry.edit.id;
-    }
-    return last;
-}
+/// Other models than the shown and the newest one: to close a form and open it again reads nothing.
+constexpr int kOtherModels = 1;
 
 const Scene* scene_at_hand(const Snapshot& snapshot, const std::string& variant) {
     if (pending_count(snapshot, variant) > 0) return nullptr;
@@ -48,38 +42,76 @@ ShownScene::ShownScene(std::function<void(const std::string&)> report)
 void ShownScene::follow(std::shared_ptr<const Snapshot> snapshot, std::string variant) {
     snapshot_ = std::move(snapshot);
     variant_ = std::move(variant);
-    if (const Scene* known = scene_at_hand(*snapshot_, variant_))
-        set(*known);
-    else if (!last_known(*snapshot_, variant_))
-        set({});
-    else
-        state_.ask();
+    renew();
+    models_.keep(newest_, 0);
 }
 
-void ShownScene::set(Scene scene) {
-    state_.forget();
-    current_ = std::move(scene);
-    known_figures_ = {};
-    if (current_->surface)
+void ShownScene::stand_before(const std::optional<EditSite>& site) {
+    if (site_ == site) return;
+    site_ = site;
+    if (snapshot_) renew();
+}
+
+/// Finds out what should be shown, and shows it if it is at hand.
+void ShownScene::renew() {
+    newest_ = known_end(snapshot_->history->line(variant_));
+    input_ = site_ ? input_of(*site_, *snapshot_->history, variant_) : std::nullopt;
+    const ResultId wanted = input_ ? input_->result : newest_;
+    if (wanted == std::exchange(wanted_, wanted)) return;
+    const Scene* at_hand = scene_at_hand(*snapshot_, variant_);
+    if (models_.shown() != nullptr && models_.shown()->result == wanted)
+        model_.forget();
+    else if (models_.show(wanted))
+        model_changed();
+    else if (wanted == 0)
+        show(wanted, {});
+    else if (wanted == newest_ && at_hand != nullptr)
+        show(wanted, *at_hand);
+    else
+        model_.ask();
+}
+
+void ShownScene::show(ResultId result, Scene scene) {
+    models_.put(result, std::move(scene));
+    models_.keep(newest_, kOtherModels);
+    model_changed();
+}
+
+void ShownScene::model_changed() {
+    model_.forget();
+    if (current()->surface && !models_.shown()->figures)
         figures_.ask();
     else
         figures_.forget();
     scene_changed();
 }
 
-void ShownScene::offer(EditId edit, const Scene& scene) {
-    if (outdated() && last_known(*snapshot_, variant_) == edit) set(scene);
+void ShownScene::offer(ResultId result, const Scene& scene) {
+    if (outdated() && wanted_ == result) show(result, scene);
+}
+
+const Scene* ShownScene::newest() const {
+    const KnownModel* known = models_.find(newest_);
+    return known != nullptr ? &known->scene : nullptr;
+}
+
+const ShownFigures& ShownScene::figures() const {
+    static const ShownFigures kUnknown;
+    const KnownModel* model = models_.shown();
+    return model != nullptr && model->figures ? *model->figures : kUnknown;
 }
 
 void ShownScene::clear() {
-    state_.forget();
+    model_.forget();
     figures_.forget();
     deviation_.forget();
     source_.forget();
     snapshot_.reset();
-    current_.reset();
+    site_.reset();
+    input_.reset();
+    newest_ = wanted_ = kNone;
+    models_.clear();
     preview_.reset();
-    known_figures_ = {};
     known_deviation_.reset();
     known_source_.reset();
     ++changes_;
@@ -107,7 +139,8 @@ void ShownScene::drop_preview() {
 /// The last edit of the source's step, if other edits follow it.
 std::optional<EditId> ShownScene::source_edit() const {
     std::optional<EditId> source;
-    for (const HistoryEntry& entry : snapshot_->history->line(variant_)) {
+    const auto line = input_ ? input_->before : snapshot_->history->line(variant_);
+    for (const HistoryEntry& entry : line) {
         if (entry.status != EditStatus::Done) continue;
         if (entry.place.step != Step::Source) return source;
         source = entry.edit.id;
@@ -122,7 +155,8 @@ void ShownScene::want_deviation(bool wanted) {
 
 void ShownScene::ask_deviation() {
     known_deviation_.reset();
-    const bool comparable = scene() != nullptr && scene()->surface && (preview_ || source_edit());
+    const bool has_other = preview_ ? current()->surface.has_value() : source_edit().has_value();
+    const bool comparable = scene() != nullptr && scene()->surface && has_other;
     if (wants_deviation_ && comparable)
         deviation_.ask();
     else
@@ -144,30 +178,26 @@ void ShownScene::ask_source() {
 // --- finding it
 
 bool ShownScene::pending() const {
-    return state_.wanted || figures_.wanted || deviation_.wanted || source_.wanted;
+    return model_.wanted || figures_.wanted || deviation_.wanted || source_.wanted;
 }
 
 void ShownScene::pause() {
-    state_.task.drop();
+    model_.task.drop();
     figures_.task.drop();
     deviation_.task.drop();
     source_.task.drop();
 }
 
 void ShownScene::request(SessionRunner& runner) {
-    if (state_.due()) request_state(runner);
-    if (state_.wanted) return;
+    if (model_.due()) model_.task = runner.result_scene(wanted_);
+    if (model_.wanted) return;
     if (figures_.due()) request_figures(runner);
     if (deviation_.due()) request_deviation(runner);
     if (source_.due()) request_source(runner);
 }
 
-void ShownScene::request_state(SessionRunner& runner) {
-    state_.task = runner.scene_after(*last_known(*snapshot_, variant_));
-}
-
 void ShownScene::request_figures(SessionRunner& runner) {
-    figures_.task = runner.submit([source = source_edit(), variant = variant_, scene = *current_](
+    figures_.task = runner.submit([source = source_edit(), variant = variant_, scene = *current()](
                                       Session& session, const Progress& progress) {
         ShownFigures figures;
         if (!scene.surface || scene.surface->empty()) return figures;
@@ -181,7 +211,7 @@ void ShownScene::request_figures(SessionRunner& runner) {
 }
 
 void ShownScene::request_deviation(SessionRunner& runner) {
-    const std::optional<Scene> before = preview_ ? current_ : std::nullopt;
+    const std::optional<Scene> before = preview_ ? std::optional(*current()) : std::nullopt;
     deviation_.task = runner.submit([source = source_edit(), before, variant = variant_,
                                      scene = *scene()](Session& session, const Progress& progress) {
         const Surface& surface = surface_of(scene);
@@ -212,24 +242,26 @@ std::optional<Result> ShownScene::taken(Wish<Result>& wish, const char* what) {
 }
 
 bool ShownScene::poll() {
-    const bool state = poll_state(), figures = poll_figures();
+    const bool model = poll_model(), figures = poll_figures();
     const bool deviation = poll_deviation(), source = poll_source();
-    return state || figures || deviation || source;
+    return model || figures || deviation || source;
 }
 
-bool ShownScene::poll_state() {
-    if (!state_.wanted) return false;
-    auto scene = taken(state_, "The model cannot be read");
-    if (scene)
-        set(std::move(*scene));
-    else if (!state_.wanted)
-        set({});  // not the model of another state
-    return !state_.wanted;
+bool ShownScene::poll_model() {
+    if (!model_.wanted) return false;
+    auto scene = taken(model_, "The model cannot be read");
+    if (scene) {
+        show(wanted_, std::move(*scene));
+    } else if (!model_.wanted) {
+        wanted_ = kNone;  // so that it is asked for again
+        show(kNone, {});  // not another model
+    }
+    return !model_.wanted;
 }
 
 bool ShownScene::poll_figures() {
     const auto figures = taken(figures_, "The model cannot be measured");
-    if (figures) known_figures_ = *figures;
+    if (figures) models_.shown()->figures = *figures;
     return figures.has_value();
 }
 

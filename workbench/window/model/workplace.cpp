@@ -66,10 +66,8 @@ bool Workplace::update() {
 }
 
 bool Workplace::update_live() {
-    const LiveSmoothing::Followed followed{.document = document,
-                                           .form = form_ ? &*form_ : nullptr,
-                                           .step = step_,
-                                           .colouring = view.colouring};
+    const LiveSmoothing::Followed followed{
+        .document = document, .form = form_ ? &*form_ : nullptr, .colouring = view.colouring};
     const bool live = live_.update(followed);
     tell_fallback();
     if (view.flies) end_models_gallery();
@@ -100,12 +98,13 @@ void Workplace::end_applied_form() {
     form_.reset();
     disarm();
     end_drag();
+    document.stand_before({});
 }
 
 /// What was applied is computed by the CPU, and taken back where it would cross itself: a user who
 /// saw something else is told.
 void Workplace::tell_difference() {
-    if (!applied_live_ || form_) return;
+    if (!applied_live_ || form_ || document.is_reading()) return;
     const Scene* scene = document.current();
     if (scene == nullptr || !scene->surface || scene->surface->positions == applied_to_) return;
     const std::shared_ptr<const LiveModel> seen = std::exchange(applied_live_, nullptr);
@@ -230,12 +229,13 @@ void Workplace::choose_step(Step step) {
 }
 
 void Workplace::choose(const std::string& operation, std::optional<Step> step) {
-    leave_form();
-    form_.emplace(find_operation(operation), suggested_arguments(find_operation(operation)));
+    const Operation& chosen = find_operation(operation);
+    drop_form();
+    const bool fits = step && std::ranges::count(chosen.allowed, *step) > 0;
+    step_ = fits ? *step : chosen.usual_step;
+    document.stand_before(EditSite{.edit = {}, .step = step_});
+    form_.emplace(chosen, suggested_arguments(chosen));
     ++form_number_;
-    const std::vector<Step>& allowed = form_->operation().allowed;
-    const bool fits = step && std::ranges::count(allowed, *step) > 0;
-    step_ = fits ? *step : form_->operation().usual_step;
     if (is_brush(form_->operation())) {
         if (tip_.radius > 0.0) vesselbench::set_tip(*form_, tip_);
         return;
@@ -297,14 +297,15 @@ void Workplace::look_at_worst(int steps) {
 }
 
 void Workplace::choose_edit(EditId edit) {
-    leave_form();
+    drop_form();
     const LogEntry* entry = find_entry(*document.snapshot(), edit);
     const Operation* operation =
         entry == nullptr ? nullptr : known_operation(entry->edit.operation);
-    if (operation == nullptr) return;
+    if (operation == nullptr) return document.stand_before({});
     form_.emplace(*operation, entry->edit);
     ++form_number_;
     step_ = entry->edit.place.step;
+    document.stand_before(EditSite{.edit = edit, .step = step_});
 }
 
 void Workplace::set_field(const std::string& parameter, const std::string& text) {
@@ -324,6 +325,11 @@ void Workplace::reset_form() {
 }
 
 void Workplace::leave_form() {
+    drop_form();
+    document.stand_before({});
+}
+
+void Workplace::drop_form() {
     looked_at_.reset();
     live_.follow(false);
     extraction_.follow(false);
@@ -394,7 +400,7 @@ void Workplace::set_tip(const BrushTip& tip) {
 }
 
 void Workplace::begin_stroke(StrokeKeys keys) {
-    if (can_paint()) document.begin_stroke(stroke_of(*form_, tip(), keys));
+    if (can_paint()) document.begin_stroke(stroke_of(*form_, tip(), keys), step_);
 }
 
 std::string Workplace::command() const {
@@ -421,7 +427,7 @@ std::optional<PickTarget> Workplace::armed_target() const {
 
 void Workplace::pick(const Vec3& point) {
     const std::optional<PickTarget> target = armed_target();
-    if (!target || target == PickTarget::Labels) return;
+    if (!target || target == PickTarget::Labels || document.is_reading()) return;
     set_field(armed_, picked_text(*target, form_->field(armed_).text, point));
     if (is_complete(*target, form_->field(armed_).text)) disarm();
 }

@@ -91,12 +91,13 @@ public:
     /// Shows the operations of a step.
     void choose_step(Step step);
 
-    /// Shows the form of an operation. Its edit will belong to the given step if the operation is
-    /// allowed there, else to its usual step. \throw UsageError if there is none of this name
+    /// Shows the form of an operation, and the model that its edit will run on. The edit will
+    /// belong to the given step if the operation is allowed there, else to its usual step. \throw
+    /// UsageError if there is none of this name
     void choose(const std::string& operation, std::optional<Step> step = {});
 
-    /// Shows the form of an edit of the current state. Ignored if the operation is of another
-    /// version.
+    /// Shows the form of an edit of the current state, and the model that it runs on. Ignored if
+    /// the operation is of another version.
     void choose_edit(EditId edit);
 
     /// Shows the form that a message recommends: of the edit it is about, else of the operation.
@@ -124,7 +125,7 @@ public:
     void set_field(const std::string& parameter, const std::string& text);
     void reset_form();
 
-    /// Closes the form and drops its preview.
+    /// Closes the form and drops its preview: the newest model is shown.
     void leave_form();
 
     [[nodiscard]] bool can_apply() const;
@@ -164,7 +165,8 @@ public:
     /// What a click means now; none unless a parameter is armed.
     [[nodiscard]] std::optional<PickTarget> armed_target() const;
 
-    /// Fills in the armed parameter, and disarms it when its value is complete.
+    /// Fills in the armed parameter, and disarms it when its value is complete. Ignored while the
+    /// view shows another model than the edit will run on.
     void pick(const Vec3& point);
 
     /// Adds a label to the armed parameter, or removes it.
@@ -332,6 +334,7 @@ private:
     [[nodiscard]] bool update_slices();
     void end_models_gallery();
     void end_applied_form();
+    void drop_form();
     void end_spots();
     void tell_difference();
     void tell_fallback();

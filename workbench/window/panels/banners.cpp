@@ -102,6 +102,20 @@ void draw_read_only(PanelContext& c, ScreenRect& place) {
         c.place.ask(FileQuestion::SaveCopy);
 }
 
+/// Which model is shown while the form of an edit is open that does not run on the newest one.
+void draw_input(PanelContext& c, ScreenRect& place, float gap) {
+    const Document& document = c.place.document;
+    const EditInput* input = document.stands_before();
+    if (input == nullptr || !c.place.form()) return;
+    const std::string model = input_text(*input, c.place.form()->operation().name);
+    const Banner banner{icons::kHistory, c.ui.theme.accent,
+                        document.is_reading() ? "Reading: " + model : model, "Newest model"};
+    place.height = height_of(c.ui, banner, place.width);
+    c.ui.item("banner.input", place);
+    if (draw_banner(c, "input", banner, place) == Answer::Action) c.place.leave_form();
+    place.y += place.height + gap;
+}
+
 /// The first edit of the shown variant that no longer applies, unless its form is open.
 const LogEntry* stale_edit(const PanelContext& c) {
     const auto& form = c.place.form();
@@ -223,6 +237,7 @@ void draw_banners(PanelContext& c, const ScreenRect& view) {
         draw_comparison_banner(c, place);
         place.y += place.height + gap;
     }
+    draw_input(c, place, gap);
     draw_stale(c, place, gap);
     const int pending = pending_count(*document.snapshot(), document.variant());
     if (pending > 0) {

@@ -52,7 +52,7 @@ const char* title_of(FileQuestion question) {
 }
 
 bool has_volume(const Document& document) {
-    const Scene* scene = document.current();
+    const Scene* scene = document.newest();
     return scene != nullptr && scene->volume_mesh;
 }
 

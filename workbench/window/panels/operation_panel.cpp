@@ -157,6 +157,9 @@ void draw_advice(PanelContext& c, const OperationForm& form, const Parameter* pa
                        c.ui.theme.danger);
     if (missing) return wrapped(c.ui, need_of(form), c.ui.theme.warning);
     if (shows_live(c)) return wrapped(c.ui, live_advice(c), c.ui.theme.muted);
+    const std::string waiting = c.place.document.why_not_input();
+    if (is_brush(form.operation()) && !waiting.empty())
+        return wrapped(c.ui, "Nothing can be painted: " + waiting, c.ui.theme.warning);
     wrapped(c.ui,
             c.place.can_paint()
                 ? "Drag on the surface to brush: each drag is an edit. [ and ] change the radius, "

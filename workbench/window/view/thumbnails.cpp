@@ -121,14 +121,14 @@ std::optional<ResultId> Thumbnails::Impl::result_of(StateId state) {
     return result;
 }
 
-/// The shown scene is at hand, others are read.
+/// The newest model is at hand, others are read.
 void Thumbnails::Impl::begin(const Document& document) {
     const StateId state = *std::exchange(wanted, std::nullopt);
     making_result = result_of(state).value_or(0);
     if (making_result == 0 || made.contains(making_result)) return;
     if (made.size() >= kMostStates) made.clear();
-    if (state == history->current() && document.current() != nullptr)
-        return lay_out(*document.current());
+    if (state == history->current() && document.newest() != nullptr)
+        return lay_out(*document.newest());
     reading = document.runner()->submit(
         [state, variant = variant](Session& session, const Progress& progress) {
             return session.known_scene(state, variant, progress);
@@ -169,7 +169,7 @@ void Thumbnails::Impl::take_arrays(Renderer& renderer) {
 
 /// Keeps the current state's picture as the project's, and asks for it if it is missing.
 void Thumbnails::Impl::keep(const Document& document) {
-    if (document.current() == nullptr || writing.pending()) return;
+    if (document.newest() == nullptr || writing.pending()) return;
     const ResultId now = result_of(history->current()).value_or(0);
     if (now == 0 || now == kept) return;
     const auto found = made.find(now);

@@ -109,7 +109,8 @@ void draw_legend(const PanelContext& c, const ViewScene& scene) {
     const auto legend = legend_of(c, scene);
     if (!legend || scene.hides_model()) return;
     ScreenRect place = scene.rect();
-    if (scene.compared().colours_model()) place.y += c.ui.em * 1.5F;  // below its banner
+    if (scene.compared().colours_model()) place.y += c.ui.em * 1.5F;             // below its banner
+    if (c.place.document.stands_before() != nullptr) place.y += c.ui.em * 3.5F;  // its banner
     const bool live = c.place.live().follows() || c.place.extraction().follows();
     if (live) place.y += c.ui.em * (scene.gallery().magnifies() ? 6.5F : 3.5F);  // below its banner
     draw_colour_legend(c.ui, place, *legend);
