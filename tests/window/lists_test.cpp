@@ -63,6 +63,30 @@ SCENARIO("The rail lists the steps with their edits and states", "[window][rail]
     }
 }
 
+SCENARIO("Strokes of one brush that follow one another are one row", "[window][rail]") {
+    Session session = tube_session();
+    const Arguments dab = {{"at", Value(Vec3(4, 0, 15))}, {"radius", Value(2.0)}};
+    for (const char* brush : {"brush-inflate", "brush-inflate", "brush-smooth", "brush-inflate"})
+        session.apply(brush, dab);
+    const RailStep step = rail_of(*session.snapshot(), "cfd")[2];
+    REQUIRE(step.edits.size() == 4);
+    const std::vector<RailRow> rows = rail_rows(step);
+    REQUIRE(rows.size() == 3);
+    CHECK(rows[0].count == 2);
+    CHECK(rows[1].first == 2);
+    CHECK(rows[2].count == 1);
+    CHECK(state_of(step, rows[0]) == std::max(state_of(step.edits[0]), state_of(step.edits[1])));
+}
+
+SCENARIO("A step that no operation belongs to is not listed, unless it has edits",
+         "[window][rail]") {
+    Session session = tube_session();
+    CHECK_FALSE(rail_of(*session.snapshot(), "cfd")[5].in_use);
+    CHECK(rail_of(*session.snapshot(), "cfd")[8].in_use);  // the review
+    session.apply("smooth", kGentle, {.step = Step::Deformation});
+    CHECK(rail_of(*session.snapshot(), "cfd")[5].in_use);
+}
+
 SCENARIO("Long lists of arguments are counted", "[window][rail]") {
     const Arguments stroke = {{"dabs", Value(std::vector<double>(800, 1.5))}};
     CHECK(argument_summary(find_operation("brush-inflate"), stroke) == "dabs=(800 numbers)");

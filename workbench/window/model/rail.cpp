@@ -6,6 +6,7 @@
 #include "workbench/case/argument_texts.h"
 #include "workbench/operations/table.h"
 #include "workbench/report/log_json.h"
+#include "workbench/window/model/brush_form.h"
 #include "workbench/window/model/edit_places.h"
 
 namespace vesselbench {
@@ -44,11 +45,16 @@ RailEdit rail_edit(const LogEntry& entry) {
     return row;
 }
 
-/// The worst of its edits' states.
-StepState state_of(const std::vector<RailEdit>& edits) {
-    StepState worst = StepState::Empty;
-    for (const RailEdit& edit : edits) worst = std::max(worst, state_of(edit));
-    return worst;
+/// The review is no operation's step.
+bool has_operation(Step step) {
+    return step == Step::Review || std::ranges::any_of(operation_table(), [&](const auto& each) {
+               return each.usual_step == step;
+           });
+}
+
+bool is_stroke(const RailEdit& edit) {
+    const Operation* operation = known_operation(edit.operation);
+    return operation != nullptr && is_brush(*operation);
 }
 
 }  // namespace
@@ -68,7 +74,8 @@ std::vector<RailStep> empty_rail() {
     for (std::size_t i = 0; i < kSteps.size(); ++i)
         rail.push_back({.step = static_cast<Step>(i + 1),
                         .title = kSteps[i].title,
-                        .purpose = kSteps[i].purpose});
+                        .purpose = kSteps[i].purpose,
+                        .in_use = has_operation(static_cast<Step>(i + 1))});
     return rail;
 }
 
@@ -78,8 +85,32 @@ std::vector<RailStep> rail_of(const Snapshot& snapshot, const std::string& varia
         if (is_part_of(entry.edit.place, variant))
             rail.at(static_cast<std::size_t>(entry.edit.place.step) - 1)
                 .edits.push_back(rail_edit(entry));
-    for (RailStep& step : rail) step.state = state_of(step.edits);
+    for (RailStep& step : rail) {
+        step.state = state_of(step, {.first = 0, .count = step.edits.size()});
+        step.in_use = step.in_use || !step.edits.empty();
+    }
     return rail;
+}
+
+std::vector<RailRow> rail_rows(const RailStep& step) {
+    std::vector<RailRow> rows;
+    for (std::size_t i = 0; i < step.edits.size(); ++i) {
+        const RailEdit& edit = step.edits[i];
+        const bool continues =
+            i > 0 && is_stroke(edit) && step.edits[i - 1].operation == edit.operation;
+        if (continues)
+            ++rows.back().count;
+        else
+            rows.push_back({.first = i, .count = 1});
+    }
+    return rows;
+}
+
+StepState state_of(const RailStep& step, const RailRow& row) {
+    StepState worst = StepState::Empty;
+    for (std::size_t i = row.first; i < row.first + row.count; ++i)
+        worst = std::max(worst, state_of(step.edits[i]));
+    return worst;
 }
 
 StepState state_of(const RailEdit& edit) {

@@ -29,7 +29,19 @@ struct RailStep {
     std::string purpose;  ///< what it is for, one line
     StepState state = StepState::Empty;
     std::vector<RailEdit> edits;
+    bool in_use = true;  ///< false: no operation belongs to it, and it has no edit
 };
+
+/// Edits of a step that a list shows in one row: strokes of one brush that follow one another, or
+/// any other single edit.
+struct RailRow {
+    std::size_t first = 0, count = 1;  ///< of the step's edits
+};
+
+[[nodiscard]] std::vector<RailRow> rail_rows(const RailStep& step);
+
+/// The worst of the states of a row's edits.
+[[nodiscard]] StepState state_of(const RailStep& step, const RailRow& row);
 
 /// The nine steps in order. \param variant whose edits are listed from openings on
 [[nodiscard]] std::vector<RailStep> rail_of(const Snapshot& snapshot, const std::string& variant);

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "workbench/case/edit_record.h"
@@ -36,6 +37,7 @@ struct Shown {
     std::string purpose = kDefaultVariant;  ///< answer so far
     std::optional<Step> again_from;         ///< of its own steps, to be made again; none: missing
     std::optional<NoteInProgress> note;     ///< the dialog for it
+    std::set<EditId> unfolded;              ///< first edits of strokes that the rail lists singly
     bool view = false;                      ///< the view's options
     bool compact = false;                   ///< little room: tool buttons without labels
     KeyCommands keys;                       ///< of this frame

@@ -1,5 +1,8 @@
 #include "workbench/window/panels/rail_panel.h"
 
+#include <algorithm>
+#include <set>
+
 #include <imgui.h>
 
 #include "workbench/window/model/readable.h"
@@ -101,6 +104,48 @@ void draw_edit(PanelContext& c, const RailEdit& edit) {
     if (ImGui::IsItemHovered()) c.place.point_at_edit(edit.id);
 }
 
+/// True if one of the row's edits is what the form or the pointer is about.
+bool is_lit(const PanelContext& c, const RailStep& step, const RailRow& strokes) {
+    const auto& form = c.place.form();
+    const auto lit = [&](const RailEdit& edit) {
+        return (form && form->edit() == edit.id) || c.place.pointed_edit() == edit.id;
+    };
+    const auto first = step.edits.begin() + static_cast<std::ptrdiff_t>(strokes.first);
+    return std::any_of(first, first + static_cast<std::ptrdiff_t>(strokes.count), lit);
+}
+
+/// \return true if the strokes are listed one by one
+bool draw_strokes(PanelContext& c, const RailStep& step, const RailRow& strokes) {
+    const RailEdit& first = step.edits[strokes.first];
+    std::set<EditId>& unfolded = c.shown.unfolded;
+    const bool open = unfolded.contains(first.id);
+    const StepState state = state_of(step, strokes);
+    const StateLook look = look_of(c.ui.theme, state);
+    const char* fold = open ? icons::kDown : icons::kRight;
+    if (row(c.ui, "rail.strokes." + std::to_string(first.id),
+            {.icon = state == StepState::Done ? fold : look.icon,
+             .icon_colour = state == StepState::Done ? c.ui.theme.muted : look.colour,
+             .title = readable(first.operation),
+             .right = std::to_string(strokes.count) + " strokes",
+             .selected = !open && is_lit(c, step, strokes),
+             .indent = c.ui.em * 1.9F,
+             .help = open ? "Show the strokes in one row" : "List the strokes one by one"})) {
+        if (open)
+            unfolded.erase(first.id);
+        else
+            unfolded.insert(first.id);
+    }
+    return open;
+}
+
+void draw_edits(PanelContext& c, const RailStep& step) {
+    for (const RailRow& each : rail_rows(step)) {
+        if (each.count > 1 && !draw_strokes(c, step, each)) continue;
+        for (std::size_t i = each.first; i < each.first + each.count; ++i)
+            draw_edit(c, step.edits[i]);
+    }
+}
+
 }  // namespace
 
 void draw_rail(PanelContext& c, const ScreenRect& rect) {
@@ -110,8 +155,9 @@ void draw_rail(PanelContext& c, const ScreenRect& rect) {
     group_heading(c.ui, "Steps");
     ImGui::Dummy({0, c.ui.grid(0.25F)});
     for (const RailStep& step : c.place.rail()) {
+        if (!step.in_use) continue;
         draw_step(c, step);
-        for (const RailEdit& edit : step.edits) draw_edit(c, edit);
+        draw_edits(c, step);
     }
     ImGui::PopStyleVar();
     end_frame();
