@@ -103,6 +103,22 @@ Desk filled_tube() {
     return {capped_tube_file(), {{"extrude-opening", {}}, {"tetrahedralize", {}}}};
 }
 
+/// The closed surface of the phantom with three vessels that meet.
+std::string y_file() {
+    const std::string folder = temporary_folder();
+    REQUIRE(run_program(program_path(), {"phantom", "y", "--out", folder}).exit_code == 0);
+    return folder + "/exact.vtp";
+}
+
+/// Picks the vessel end of the least x.
+void pick_left_end(Desk& desk) {
+    REQUIRE(desk.place.armed() == "tip");
+    const auto& tips = desk.place.surface_places().tips;
+    REQUIRE(tips.size() == 3);
+    const auto left = [](const NamedPlace& tip) { return tip.point.x(); };
+    desk.place.pick(std::ranges::min_element(tips, {}, left)->point);
+}
+
 /// The edit of the current state that was made last.
 LogEntry newest_edit_of(const Document& document) {
     return *std::ranges::max_element(document.snapshot()->log, {},
@@ -222,34 +238,47 @@ SCENARIO("A point is picked only on the model that the edit runs on", "[window][
 }
 
 SCENARIO("A forgotten branch is removed after the model was filled", "[window][earlier]") {
-    const std::string folder = temporary_folder();
-    REQUIRE(run_program(program_path(), {"phantom", "y", "--out", folder}).exit_code == 0);
-    Desk desk(folder + "/exact.vtp", {{"clip-opening", {{"tip", Value(Vec3(0, 0, -20))}}},
-                                      {"clip-opening", {{"tip", Value(Vec3(11.5, 0, 16.4))}}},
-                                      {"remesh", {{"edge", 0.5}}},
-                                      {"tetrahedralize", {}}});
+    Desk desk(y_file(), {{"clip-opening", {{"tip", Value(Vec3(0, 0, -20))}}},
+                         {"clip-opening", {{"tip", Value(Vec3(11.5, 0, 16.4))}}},
+                         {"remesh", {{"edge", 0.5}}},
+                         {"tetrahedralize", {}}});
     REQUIRE(desk.document.current()->volume_mesh);
-    const Bounds before = bounds(desk.surface());
+    REQUIRE(bounds(desk.surface()).min.x() < -10.0);
     desk.place.choose("remove-branch");
     desk.settle();
     REQUIRE(desk.document.stands_before() != nullptr);
     CHECK(desk.document.stands_before()->has_later);
     CHECK_FALSE(desk.document.current()->volume_mesh);
     CHECK(desk.surface().patches.size() == 1);
-    REQUIRE(desk.place.armed() == "tip");
-    const auto& tips = desk.place.surface_places().tips;
-    REQUIRE(tips.size() == 3);
-    desk.place.pick(std::ranges::min_element(tips, {}, [](const NamedPlace& tip) {
-                        return tip.point.x();
-                    })->point);
+    pick_left_end(desk);
     desk.apply();
     CHECK(newest_edit_of(desk.document).edit.place.step == Step::Branches);
     CHECK(newest_edit_of(desk.document).status == EditStatus::Done);
     desk.run_pending();
     CHECK(desk.document.current()->volume_mesh);
     CHECK(desk.surface().patches.size() == 3);
-    CHECK(before.min.x() < -10.0);
     CHECK(bounds(desk.surface()).min.x() > -4.0);
+}
+
+SCENARIO("Openings are chosen again where the end of a removed branch was one",
+         "[window][earlier]") {
+    Desk desk(y_file(), {{"clip-opening", {}}, {"remesh", {{"edge", 0.5}}}});
+    REQUIRE(desk.surface().patches.size() == 4);
+    desk.place.choose("remove-branch");
+    desk.settle();
+    pick_left_end(desk);
+    desk.apply();
+    desk.document.run_pending();
+    desk.settle();
+    const LogEntry* stale = first_stale(*desk.document.snapshot(), "cfd");
+    REQUIRE(stale != nullptr);
+    REQUIRE(stale->edit.operation == "clip-opening");
+    desk.place.choose_edit(stale->edit.edit.id);
+    desk.settle();
+    CHECK(bounds(desk.surface()).min.x() > -4.0);  // the branch is gone there
+    desk.apply();
+    desk.run_pending();
+    CHECK(desk.surface().patches.size() == 3);
 }
 
 SCENARIO("The other end of a filled model becomes the inlet", "[window][earlier]") {

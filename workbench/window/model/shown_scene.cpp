@@ -155,12 +155,16 @@ void ShownScene::want_deviation(bool wanted) {
 
 void ShownScene::ask_deviation() {
     known_deviation_.reset();
-    const bool has_other = preview_ ? current()->surface.has_value() : source_edit().has_value();
-    const bool comparable = scene() != nullptr && scene()->surface && has_other;
-    if (wants_deviation_ && comparable)
+    if (wants_deviation_ && has_comparable())
         deviation_.ask();
     else
         deviation_.forget();
+}
+
+/// True if there is another surface for the deviation of this one.
+bool ShownScene::has_comparable() const {
+    if (scene() == nullptr || !scene()->surface) return false;
+    return preview_ ? current() != nullptr && current()->surface : source_edit().has_value();
 }
 
 void ShownScene::want_source(bool wanted) {

@@ -123,6 +123,7 @@ private:
     void show(ResultId result, Scene scene);
     void model_changed();
     void scene_changed();
+    [[nodiscard]] bool has_comparable() const;
     void ask_deviation();
     void ask_source();
     bool poll_model();
