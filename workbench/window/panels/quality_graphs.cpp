@@ -55,7 +55,7 @@ ImDrawList& draw_list() {
     return *ImGui::GetWindowDrawList();
 }
 
-ImVec2 on_screen(double x, double y) {
+ImVec2 pixel_at(double x, double y) {
     return {static_cast<float>(x), static_cast<float>(y)};
 }
 
@@ -110,8 +110,8 @@ void draw_suggestion(PanelContext& c, const OperationForm& form, const QualityCu
     const float reach = c.ui.em * 0.35F;
     const ImVec2 back = ImGui::GetCursorScreenPos();
     const auto [top, left, right] = suggestion_mark({tip.x, tip.y}, reach, 1.6F * reach);
-    draw_list().AddTriangleFilled(on_screen(top.x, top.y), on_screen(left.x, left.y),
-                                  on_screen(right.x, right.y), suggestion_colour(c.ui));
+    draw_list().AddTriangleFilled(pixel_at(top.x, top.y), pixel_at(left.x, left.y),
+                                  pixel_at(right.x, right.y), suggestion_colour(c.ui));
     ImGui::SetCursorScreenPos({tip.x - 1.5F * reach, tip.y});
     const std::string name = "quality.suggest." + curve.name;
     const bool settable = can_set(form, curve, curve.suggested);
@@ -133,7 +133,7 @@ void draw_curve(const PanelContext& c, const SensitivityAnalysis& analysis,
     for (const auto& points : graph_lines(curve, axis, share)) {
         if (points.size() < 2) continue;
         std::vector<ImVec2> line;
-        for (const auto& [x, y] : points) line.push_back(on_screen(x, y));
+        for (const auto& [x, y] : points) line.push_back(pixel_at(x, y));
         draw_list().AddPolyline(line.data(), static_cast<int>(line.size()), colour_of(c.ui, look),
                                 ImDrawFlags_None, std::max(1.5F, c.ui.em / 8));
     }
@@ -147,20 +147,20 @@ void label(const PanelContext& c, ImVec2 at, float alignment, const std::string&
 }
 
 void draw_grid(const PanelContext& c, const GraphFrame& axis) {
-    draw_list().AddRectFilled(on_screen(axis.left, axis.top),
-                              on_screen(axis.right(), axis.bottom()), c.ui.theme.field);
+    draw_list().AddRectFilled(pixel_at(axis.left, axis.top), pixel_at(axis.right(), axis.bottom()),
+                              c.ui.theme.field);
     for (const double share : {0.0, 0.5, 1.0}) {
         const double y = axis.y(share);
-        draw_list().AddLine(on_screen(axis.left, y), on_screen(axis.right(), y), c.ui.theme.border);
-        label(c, on_screen(axis.left - c.ui.grid(0.5F), y - c.ui.em * 0.45F), 1.0F,
+        draw_list().AddLine(pixel_at(axis.left, y), pixel_at(axis.right(), y), c.ui.theme.border);
+        label(c, pixel_at(axis.left - c.ui.grid(0.5F), y - c.ui.em * 0.45F), 1.0F,
               formatted(100.0 * share, "%g %%"));
     }
 }
 
 void draw_ends(const PanelContext& c, const QualityCurve& curve, const GraphFrame& axis) {
     const double y = axis.bottom() + c.ui.grid(0.25F);
-    label(c, on_screen(axis.left, y), 0.0F, formatted(axis.from));
-    label(c, on_screen(axis.right(), y), 1.0F, formatted(axis.to) + unit_of(curve));
+    label(c, pixel_at(axis.left, y), 0.0F, formatted(axis.from));
+    label(c, pixel_at(axis.right(), y), 1.0F, formatted(axis.to) + unit_of(curve));
 }
 
 /// With the value of now, and the suggestion, which is seen to follow the target.
@@ -181,8 +181,8 @@ void draw_title(const PanelContext& c, const QualityCurve& curve, double now) {
 }
 
 void draw_value_line(const PanelContext& c, const GraphFrame& axis, double now) {
-    const ImVec2 top = on_screen(axis.x(now), axis.top);
-    draw_list().AddLine(top, on_screen(axis.x(now), axis.bottom()), c.ui.theme.text,
+    const ImVec2 top = pixel_at(axis.x(now), axis.top);
+    draw_list().AddLine(top, pixel_at(axis.x(now), axis.bottom()), c.ui.theme.text,
                         std::max(1.0F, c.ui.em / 10));
     draw_list().AddCircleFilled(top, c.ui.em * 0.28F, c.ui.theme.text);
 }
@@ -209,15 +209,15 @@ void draw_graph(PanelContext& c, const OperationForm& form, const SensitivityAna
         draw_curve(c, analysis, curve, axis, look);
     draw_value_line(c, axis, now);
     draw_ends(c, curve, axis);
-    ImGui::SetCursorScreenPos(on_screen(axis.left, axis.top));
+    ImGui::SetCursorScreenPos(pixel_at(axis.left, axis.top));
     ImGui::InvisibleButton(("graph." + curve.name).c_str(), {wide, high});
     c.ui.item("quality.graph." + curve.name);
     if (!ImGui::IsItemActive())
         help_on_hover(c.ui,
                       values_at(curve, axis.value(ImGui::GetIO().MousePos.x), analysis.scale));
     handle_press(c, form, curve, axis);
-    draw_suggestion(c, form, curve, on_screen(axis.x(curve.suggested), axis.bottom()));
-    ImGui::SetCursorScreenPos(on_screen(from.x, axis.bottom()));
+    draw_suggestion(c, form, curve, pixel_at(axis.x(curve.suggested), axis.bottom()));
+    ImGui::SetCursorScreenPos(pixel_at(from.x, axis.bottom()));
     ImGui::Dummy({1, c.ui.em * 1.4F});
     draw_figures(c, curve, analysis.scale, now);
 }
@@ -239,17 +239,17 @@ void draw_fields(const QualityCurve& curve, const QualityBar& bar, const GraphFr
     for (const BarField& field : bar_fields(curve, bar, axis)) {
         const PixelColour rgb = field.colour.value_or(PixelColour{});
         draw_list().AddRectFilled(
-            on_screen(field.left, axis.top), on_screen(field.right, axis.bottom()),
+            pixel_at(field.left, axis.top), pixel_at(field.right, axis.bottom()),
             field.colour ? IM_COL32(rgb[0], rgb[1], rgb[2], 255) : ui.theme.field);
     }
-    draw_list().AddRect(on_screen(axis.left, axis.top), on_screen(axis.right(), axis.bottom()),
+    draw_list().AddRect(pixel_at(axis.left, axis.top), pixel_at(axis.right(), axis.bottom()),
                         ui.theme.border);
 }
 
 void draw_value_frame(const Ui& ui, const GraphFrame& axis, double now) {
     const double reach = ui.em * 0.25, x = axis.x(now);
-    const ImVec2 from = on_screen(x - reach, axis.top - 2),
-                 to = on_screen(x + reach, axis.bottom() + 2);
+    const ImVec2 from = pixel_at(x - reach, axis.top - 2),
+                 to = pixel_at(x + reach, axis.bottom() + 2);
     draw_list().AddRect(from, to, paint(0x000000), 0, 0, 3);
     draw_list().AddRect(from, to, paint(0xFFFFFF), 0, 0, 1);
 }
@@ -263,7 +263,7 @@ void draw_bar(PanelContext& c, const OperationForm& form, const QualityCurve& cu
     const GraphFrame axis = frame_of(curve, {from.x + left, from.y, wide, high});
     draw_fields(curve, bar, axis, c.ui);
     draw_value_frame(c.ui, axis, value_now(c, form, curve));
-    ImGui::SetCursorScreenPos(on_screen(axis.left, axis.top));
+    ImGui::SetCursorScreenPos(pixel_at(axis.left, axis.top));
     const std::string name = curve.name + "." + measure_name(bar.measure);
     ImGui::InvisibleButton(("bar." + name).c_str(), {wide, high});
     c.ui.item("quality.bar." + name);
