@@ -27,7 +27,7 @@ std::string text_in(const std::vector<FieldText>& texts, const std::string& para
 
 // --- following the form
 
-bool OpeningsModel::update(Document& document, const OperationForm* form, Step step) {
+bool OpeningsModel::update(const Document& document, const OperationForm* form) {
     const auto before = std::exchange(pointed_, std::exchange(next_pointed_, std::nullopt));
     has_form_ = form != nullptr && document.is_open() && opens_ends(*form);
     has_tip_ = has_form_ && !form->field("tip").text.empty();
@@ -36,7 +36,7 @@ bool OpeningsModel::update(Document& document, const OperationForm* form, Step s
         return before != pointed_;
     }
     operation_ = &form->operation();
-    input_.update(document, *form, step);
+    take_input(document);
     take();
     ask(*form);
     const std::pair now(form->edit(), form->changes());
@@ -47,7 +47,8 @@ bool OpeningsModel::update(Document& document, const OperationForm* form, Step s
 }
 
 void OpeningsModel::forget() {
-    input_.forget();
+    input_.reset();
+    reading_ = false;
     if (asked_ || task_.pending()) task_.forget();
     asked_.reset();
     planned_.reset();
@@ -56,6 +57,16 @@ void OpeningsModel::forget() {
     problem_.clear();
     selected_.reset();
     fixes_plan_ = false;
+}
+
+void OpeningsModel::take_input(const Document& document) {
+    reading_ = document.is_reading();
+    input_problem_ = document.why_not_input();
+    const Scene* scene = document.current();
+    if (scene != nullptr && !reading_ && input_problem_.empty())
+        input_ = *scene;
+    else
+        input_.reset();
 }
 
 /// A plan of other wishes is of no use.
@@ -76,20 +87,20 @@ void OpeningsModel::take() {
 }
 
 void OpeningsModel::ask(const OperationForm& form) {
-    const Scene* scene = input_.scene();
-    if (scene == nullptr || !scene->surface || scene->surface->empty()) return await_model();
+    const Surface* surface = this->surface();
+    if (surface == nullptr) return await_model();
     if (!form.valid()) return;
     Arguments question = planning_arguments(form.arguments());
-    const bool same = same_surface(surface_, *scene->surface);
+    const bool same = same_surface(surface_, *surface);
     if (same && asked_ == question) return;
     const bool known = same && planned_ && plain_ == plain_arguments(question);
     if (!known) planned_.reset();
     asked_ = question;
-    surface_ = *scene->surface;
+    surface_ = *surface;
     problem_.clear();
     new_plan_ = true;
     task_.forget();
-    task_.start([operation = operation_, scene = *scene, question = std::move(question),
+    task_.start([operation = operation_, scene = *input_, question = std::move(question),
                  plain = known ? planned_->plain : nullptr](const Progress& progress) {
         PlannedEnds planned = plan_ends(*operation, scene, question, plain, progress);
         return Answer{question, std::move(planned)};
@@ -98,8 +109,8 @@ void OpeningsModel::ask(const OperationForm& form) {
 
 /// There is nothing to plan on, at least for now.
 void OpeningsModel::await_model() {
-    const bool known = input_.scene() != nullptr;
-    const std::string reason = known ? "there is no surface yet" : input_.problem();
+    const std::string reason =
+        input_problem_.empty() && !reading_ ? "there is no surface yet" : input_problem_;
     new_plan_ = new_plan_ || planned_ || problem_ != reason;
     problem_ = reason;
     if (asked_) task_.forget();
@@ -124,9 +135,8 @@ const EndRow* OpeningsModel::row(int number) const {
 }
 
 const Surface* OpeningsModel::surface() const {
-    const Scene* scene = lists_ends() ? input_.scene() : nullptr;
-    return scene != nullptr && scene->surface && !scene->surface->empty() ? &*scene->surface
-                                                                          : nullptr;
+    const bool has_surface = lists_ends() && input_ && input_->surface;
+    return has_surface && !input_->surface->empty() ? &*input_->surface : nullptr;
 }
 
 void OpeningsModel::select_near(const Vec3& point) {

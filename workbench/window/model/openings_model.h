@@ -8,21 +8,22 @@
 
 #include "geometry/vessel/openings/planned_cut.h"
 #include "workbench/session/task.h"
+#include "workbench/window/model/document.h"
 #include "workbench/window/model/end_rows.h"
-#include "workbench/window/model/form_input.h"
+#include "workbench/window/model/operation_form.h"
 
 namespace vesselbench {
 
 /// All vessel ends of a form of clip-opening: what is planned for them, and what the user wants
-/// otherwise. The form's texts hold the wishes; plans are made in the background, on the scene that
-/// the operation runs on. Used by the frame's thread.
+/// otherwise. The form's texts hold the wishes; plans are made in the background, on the document's
+/// current model, on which the operation runs. Used by the frame's thread.
 class OpeningsModel {
 public:
     /// \param wake called by the other thread when update() has something to do
     explicit OpeningsModel(std::function<void()> wake) : task_(std::move(wake)) {}
 
     /// Once a frame. \param form null: none \return true if something has changed
-    bool update(Document& document, const OperationForm* form, Step step);
+    bool update(const Document& document, const OperationForm* form);
 
     /// True if the form opens vessel ends.
     [[nodiscard]] bool has_form() const { return has_form_; }
@@ -36,7 +37,7 @@ public:
     [[nodiscard]] const EndRow* row(int number) const;
 
     /// True while the ends are not known, or not as the form says now.
-    [[nodiscard]] bool pending() const { return input_.pending() || task_.pending(); }
+    [[nodiscard]] bool pending() const { return reading_ || task_.pending(); }
 
     /// Why the ends cannot be found, or not be opened as the form says; empty: no problem.
     [[nodiscard]] const std::string& problem() const { return problem_; }
@@ -101,11 +102,14 @@ private:
 
     void forget();
     void take();
+    void take_input(const Document& document);
     void ask(const OperationForm& form);
     void await_model();
     void renew(const OperationForm& form);
 
-    FormInput input_;
+    std::optional<Scene> input_;  ///< none: it is not known
+    std::string input_problem_;
+    bool reading_ = false;
     Task<Answer> task_;
     std::optional<Arguments> asked_;  ///< planning_arguments() of the form
     Surface surface_;                 ///< of the question

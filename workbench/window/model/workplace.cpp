@@ -83,7 +83,7 @@ bool Workplace::update_live() {
 
 /// Texts that fix a plan follow it, but not what is being dragged.
 bool Workplace::update_openings() {
-    const bool changed = openings_.update(document, form_ ? &*form_ : nullptr, step_);
+    const bool changed = openings_.update(document, form_ ? &*form_ : nullptr);
     if (changed && form_ && !before_drag_) fill_form(openings_.due_texts(*form_));
     return changed;
 }
