@@ -1,40 +1,49 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "geometry/kernel/errors.h"
 #include "geometry/kernel/vec3.h"
 
 namespace vesselbench {
 
-/// What would solve a problem: an operation and its arguments, as the command line has them.
+/// What would solve a problem: an operation and its arguments, by the names of the operations'
+/// table.
 struct Remedy {
-    std::string operation;
-    std::map<std::string, std::string> arguments;
+    std::string operation;  ///< empty: the one that the diagnostic is about
+    std::map<std::string, std::string> arguments = {};  ///< without a value: choose one
+    /// It is an edit of its own that comes first; what was refused is tried again after it.
+    bool before = false;
+
+    bool operator==(const Remedy&) const = default;
 };
 
-/// What is wrong, as a value: callers word it, point at it, and offer its remedies.
+enum class Severity { Warning, Error };
+
+/// What is wrong, as a value: callers word it, point at it, and offer its remedies. The catalogue
+/// has a text for every code.
 struct Diagnostic {
-    std::string code;                       ///< "end-in-doubt"
-    std::optional<Vec3> place;              ///< [mm]
-    std::map<std::string, double> figures;  ///< "flow_share": 0.3
-    std::vector<Remedy> remedies;           ///< each was tried; the first is the best
+    std::string code;  ///< "end-in-doubt"
+    Severity severity = Severity::Warning;
+    std::string operation = {};                       ///< that it is about; empty: the one that ran
+    std::optional<std::int64_t> edit = std::nullopt;  ///< that it is about, where it is known
+    std::optional<Vec3> place = std::nullopt;         ///< [mm]
+    std::map<std::string, double> figures = {};       ///< "flow_share": 0.3
+    std::map<std::string, std::string> words = {};    ///< names in its text, "opening": "outlet_1"
+    std::vector<Remedy> remedies = {};                ///< the first is the best
+
+    bool operator==(const Diagnostic&) const = default;
 };
 
-/// A failure with its diagnostics.
-class DiagnosedFailure : public AlgorithmFailure {
-public:
-    DiagnosedFailure(const std::string& text, std::vector<Diagnostic> diagnostics)
-        : AlgorithmFailure(text), diagnostics_(std::move(diagnostics)) {}
+/// The code of a text without one, as old projects have: its words are under the same name.
+inline constexpr const char* kPlainText = "text";
 
-    [[nodiscard]] const std::vector<Diagnostic>& diagnostics() const { return diagnostics_; }
-
-private:
-    std::vector<Diagnostic> diagnostics_;
-};
+[[nodiscard]] inline Diagnostic plain_text(std::string text) {
+    return {.code = kPlainText, .words = {{kPlainText, std::move(text)}}};
+}
 
 }  // namespace vesselbench

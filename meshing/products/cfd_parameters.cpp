@@ -68,12 +68,6 @@ void distribute_flow(const CfdParameters& parameters, std::vector<InletFlow>& in
             throw InvalidInput("flow conditions: inlet_flows lacks the inlet " + inlet.name);
 }
 
-std::string text(const char* format, const std::string& name, double value) {
-    char line[240];
-    std::snprintf(line, sizeof line, format, name.c_str(), value);
-    return line;
-}
-
 }  // namespace
 
 FlowSummary flow_summary(const Surface& surface, const CfdParameters& parameters,
@@ -101,16 +95,13 @@ FlowSummary flow_summary(const Surface& surface, const CfdParameters& parameters
         inlet.reynolds =
             inlet.mean_velocity * inlet.diameter * 1e-3 * parameters.density / parameters.viscosity;
         if (inlet.reynolds > kLaminarReynolds)
-            summary.warnings.push_back(
-                text("%s: Reynolds number %.0f is above 2000; the laminar case does not describe "
-                     "this flow",
-                     inlet.name, inlet.reynolds));
+            summary.warnings.push_back({.code = "flow-not-laminar",
+                                        .figures = {{"reynolds", inlet.reynolds}},
+                                        .words = {{"inlet", inlet.name}}});
         if (inlet_bend > kLargestInletBend)
-            summary.warnings.push_back(
-                text("%s is in a bend (the centerline turns by %.0f degrees within two diameters): "
-                     "the inflow profile is not that of a straight vessel; clip elsewhere or "
-                     "extrude the opening",
-                     inlet.name, inlet_bend));
+            summary.warnings.push_back({.code = "inlet-in-bend",
+                                        .figures = {{"turn_deg", inlet_bend}},
+                                        .words = {{"inlet", inlet.name}}});
     }
     return summary;
 }

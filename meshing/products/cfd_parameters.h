@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/kernel/diagnostic.h"
 #include "geometry/kernel/surface.h"
 
 namespace vesselbench {
@@ -40,7 +41,7 @@ struct InletFlow {
 struct FlowSummary {
     std::vector<InletFlow> inlets;
     std::size_t outlets = 0;
-    std::vector<std::string> warnings;  ///< not laminar; inlet in a bend
+    std::vector<Diagnostic> warnings;  ///< not laminar; inlet in a bend
 };
 
 /// Above this the flow in a straight pipe may become turbulent (Reynolds 1883: 2000-2300).

@@ -22,18 +22,51 @@ constexpr double kSliverHeight = 0.01;
 // Below this fraction the triangle has no usable normal in double precision.
 constexpr double kDegenerateHeight = 1e-9;
 
+/// The code of a defect, and the operations that mend it.
+struct Description {
+    const char* code;
+    std::vector<const char*> remedies;
+};
+
+Description description_of(Kind kind) {
+    switch (kind) {
+        case Kind::NotFinite:
+            return {"surface-not-finite", {}};
+        case Kind::Degenerate:
+            return {"surface-degenerate", {"repair"}};
+        case Kind::Duplicate:
+            return {"surface-duplicate", {"repair"}};
+        case Kind::Gap:
+            return {"surface-gap", {"clip-opening", "fill-hole", "repair"}};
+        case Kind::NonManifoldEdge:
+            return {"surface-edge-not-manifold", {"repair"}};
+        case Kind::NonManifoldVertex:
+            return {"surface-vertex-not-manifold", {"repair"}};
+        case Kind::Orientation:
+            return {"surface-orientation", {"repair"}};
+        case Kind::InsideOut:
+            return {"surface-inside-out", {"repair"}};
+        case Kind::SeveralParts:
+            return {"surface-in-parts", {"keep-component"}};
+        case Kind::Sliver:
+            return {"surface-sliver", {"remesh"}};
+        case Kind::SelfIntersection:
+            break;
+    }
+    return {"surface-crosses-itself", {"repair"}};
+}
+
 class Finder {
 public:
     explicit Finder(const Surface& surface) : surface_(surface) {}
 
-    void add(Kind kind, std::vector<TriangleId> triangles, Positions places, const char* cause,
-             const char* remedy) {
+    void add(Kind kind, std::vector<TriangleId> triangles, Positions places) {
         if (places.empty()) return;
         std::sort(triangles.begin(), triangles.end());
         triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
         const std::size_t count = places.size();
         places.resize(std::min(count, kNamedPlaces));
-        problems.push_back({kind, count, std::move(places), std::move(triangles), cause, remedy});
+        problems.push_back({kind, count, std::move(places), std::move(triangles)});
     }
 
     [[nodiscard]] Vec3 centre(TriangleId t) const {
@@ -64,8 +97,7 @@ void Finder::find_not_finite() {
     Positions places;
     for (const Vec3& p : surface_.points())
         if (!p.allFinite()) places.push_back(p);
-    add(Kind::NotFinite, {}, std::move(places), "a coordinate is not a finite number",
-        "the file is damaged: export it again from its source");
+    add(Kind::NotFinite, {}, std::move(places));
 }
 
 void Finder::find_duplicates() {
@@ -83,8 +115,7 @@ void Finder::find_duplicates() {
             triangles.push_back(keys[i].second);
             places.push_back(centre(keys[i].second));
         }
-    add(Kind::Duplicate, std::move(triangles), std::move(places), "a triangle occurs twice",
-        "run `repair`");
+    add(Kind::Duplicate, std::move(triangles), std::move(places));
 }
 
 // Height relative to the longest edge, by that edge's length [-].
@@ -105,10 +136,8 @@ void Finder::find_flat() {
         (height < kDegenerateHeight ? degenerate : slivers).push_back(t);
         (height < kDegenerateHeight ? degenerate_places : sliver_places).push_back(centre(t));
     }
-    add(Kind::Degenerate, std::move(degenerate), std::move(degenerate_places),
-        "a triangle has no area", "run `repair`");
-    add(Kind::Sliver, std::move(slivers), std::move(sliver_places),
-        "a triangle is a sliver (height below 1 % of its longest edge)", "run `remesh`");
+    add(Kind::Degenerate, std::move(degenerate), std::move(degenerate_places));
+    add(Kind::Sliver, std::move(slivers), std::move(sliver_places));
 }
 
 void Finder::find_gaps() {
@@ -120,8 +149,7 @@ void Finder::find_gaps() {
         triangles.push_back(table.half_edges.row(e)[0] / 3);
         places.push_back(middle(table.edges[e]));
     }
-    add(Kind::Gap, triangles, places, "the surface has a gap (an edge with one triangle)",
-        "close it: `clip-opening` makes caps, `fill-hole` and `repair` close holes");
+    add(Kind::Gap, triangles, places);
 }
 
 void Finder::find_defects() {
@@ -130,11 +158,9 @@ void Finder::find_defects() {
     for (const auto& edge : defects.edges) edges.push_back(middle(edge));
     for (const auto& edge : defects.inconsistent_edges) turned.push_back(middle(edge));
     for (const VertexId v : defects.vertices) vertices.push_back(surface_.points()[v]);
-    add(Kind::NonManifoldEdge, {}, edges, "more than two triangles share an edge", "run `repair`");
-    add(Kind::NonManifoldVertex, {}, vertices, "parts of the surface touch at a single vertex",
-        "run `repair`");
-    add(Kind::Orientation, {}, turned, "two adjacent triangles have opposite orientations",
-        "run `repair`");
+    add(Kind::NonManifoldEdge, {}, edges);
+    add(Kind::NonManifoldVertex, {}, vertices);
+    add(Kind::Orientation, {}, turned);
 }
 
 void Finder::find_parts() {
@@ -143,16 +169,14 @@ void Finder::find_parts() {
     Positions places;
     for (TriangleId t = 0; t < surface_.triangle_count(); ++t)
         if (components.of_triangle[t] == places.size()) places.push_back(centre(t));
-    add(Kind::SeveralParts, {}, places, "the surface consists of several separate parts",
-        "run `keep-component`");
+    add(Kind::SeveralParts, {}, places);
 }
 
 void Finder::find_inside_out() {
     const bool orientable = std::none_of(problems.begin(), problems.end(), [](const auto& p) {
         return p.kind == Kind::Gap || p.kind == Kind::Orientation;
     });
-    if (orientable && volume(surface_) <= 0.0)
-        add(Kind::InsideOut, {}, {centre(0)}, "the triangles face inward", "run `repair`");
+    if (orientable && volume(surface_) <= 0.0) add(Kind::InsideOut, {}, {centre(0)});
 }
 
 void Finder::find_intersections(const Progress& progress) {
@@ -162,18 +186,24 @@ void Finder::find_intersections(const Progress& progress) {
         triangles.insert(triangles.end(), {s, t});
         places.push_back(0.5 * (centre(s) + centre(t)));
     }
-    add(Kind::SelfIntersection, triangles, places, "two triangles intersect",
-        "run `repair`; if two branches touch, extract them separately (a mask, another threshold)");
+    add(Kind::SelfIntersection, triangles, places);
 }
 
 }  // namespace
 
-std::string to_string(const SurfaceProblem& problem) {
-    std::string text = std::to_string(problem.count) + " x " + problem.cause;
-    for (std::size_t i = 0; i < problem.places.size(); ++i)
-        text += (i == 0 ? ", at " : ", ") + coordinates_text(problem.places[i]);
-    text += problem.count > problem.places.size() ? " ... mm" : " mm";
-    return text + "; " + problem.remedy;
+Diagnostic diagnostic_of(const SurfaceProblem& problem) {
+    std::string places;
+    for (const Vec3& place : problem.places)
+        places += (places.empty() ? "" : ", ") + coordinates_text(place);
+    places += problem.count > problem.places.size() ? " ... mm" : " mm";
+    const Description known = description_of(problem.kind);
+    Diagnostic diagnostic{.code = known.code,
+                          .figures = {{"count", static_cast<double>(problem.count)}},
+                          .words = {{"places", places}}};
+    if (!problem.places.empty()) diagnostic.place = problem.places.front();
+    for (const char* operation : known.remedies)
+        diagnostic.remedies.push_back({.operation = operation});
+    return diagnostic;
 }
 
 std::vector<SurfaceProblem> surface_problems(const Surface& surface, const Progress& progress) {

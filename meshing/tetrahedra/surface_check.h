@@ -1,8 +1,8 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
+#include "geometry/kernel/diagnostic.h"
 #include "geometry/kernel/progress.h"
 #include "geometry/kernel/surface.h"
 
@@ -29,12 +29,10 @@ struct SurfaceProblem {
     std::size_t count = 0;              ///< number of places
     Positions places;                   ///< of the first few of them [mm]
     std::vector<TriangleId> triangles;  ///< the triangles affected, ascending
-    std::string cause;                  ///< "the surface has a gap (edges with one triangle)"
-    std::string remedy;                 ///< "run `fill-hole` or `repair`"
 };
 
-/// "3 x cause, at (1.0, 2.0, 3.0) mm, ...; remedy".
-[[nodiscard]] std::string to_string(const SurfaceProblem& problem);
+/// With the number of its places, the first of them, and the operations that mend it.
+[[nodiscard]] Diagnostic diagnostic_of(const SurfaceProblem& problem);
 
 /// All defects of a surface, the most severe first; none: closed, 2-manifold, oriented outward, one
 /// part, free of self-intersections, slivers and degenerate triangles.

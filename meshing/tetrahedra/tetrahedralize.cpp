@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "geometry/kernel/diagnosed_error.h"
+#include "geometry/kernel/diagnostic_text.h"
 #include "geometry/kernel/disjoint_sets.h"
 #include "geometry/kernel/edges.h"
 #include "geometry/kernel/errors.h"
@@ -54,15 +56,19 @@ std::vector<Rung> ladder(double quality) {
 
 void check_input(const Surface& surface, TetrahedralizeReport& report, const Progress& progress) {
     if (surface.empty()) throw InvalidInput("tetrahedralize: the surface has no triangles");
-    std::string obstacles;
-    for (const SurfaceProblem& problem : surface_problems(surface, progress)) {
-        if (is_obstacle(problem))
-            obstacles += "\n  " + to_string(problem);
-        else
-            report.warnings.push_back(to_string(problem));
-    }
-    if (!obstacles.empty())
-        throw InvalidInput("tetrahedralize: the surface cannot be filled:" + obstacles);
+    std::vector<Diagnostic> obstacles;
+    for (const SurfaceProblem& problem : surface_problems(surface, progress))
+        (is_obstacle(problem) ? obstacles : report.warnings).push_back(diagnostic_of(problem));
+    if (obstacles.empty()) return;
+    std::string list;
+    for (const Diagnostic& obstacle : obstacles) list += "\n  " + text_of(obstacle);
+    Diagnostic whole{.code = "surface-not-fillable",
+                     .operation = "tetrahedralize",
+                     .place = obstacles.front().place,
+                     .words = {{"obstacles", list}},
+                     .remedies = obstacles.front().remedies};
+    obstacles.insert(obstacles.begin(), std::move(whole));
+    throw DiagnosedInput(std::move(obstacles));
 }
 
 std::vector<double> patch_areas(const Positions& points, std::span<const Triangle> triangles,
@@ -251,15 +257,15 @@ constexpr double kFineLumen = 0.6;
 
 void warn_of_number(double wanted, TetrahedralizeReport& report) {
     const auto reached = static_cast<double>(report.quality.cells);
-    const std::string cells = formatted(wanted, "%.0f cells");
+    const std::vector<Remedy> remesh = {{.operation = "remesh"}};
     if (std::abs(reached / wanted - 1.0) > 0.1)
-        report.warnings.push_back(cells + " requested, " + formatted(reached, "%.0f") +
-                                  " reached: the surface's edge length limits the number; change "
-                                  "it with `remesh`");
+        report.warnings.push_back({.code = "cells-limited",
+                                   .figures = {{"wanted", wanted}, {"reached", reached}},
+                                   .remedies = remesh});
     else if (report.size < kFineLumen)
-        report.warnings.push_back("the lumen's edges are " + formatted(report.size, "%.2g") +
-                                  " of the surface's: to resolve the wall as well with " + cells +
-                                  ", `remesh` with an edge length scaled by about that factor");
+        report.warnings.push_back({.code = "lumen-finer-than-wall",
+                                   .figures = {{"size", report.size}, {"wanted", wanted}},
+                                   .remedies = remesh});
 }
 
 }  // namespace
@@ -287,10 +293,7 @@ TetrahedralizeResult tetrahedralized(const Surface& given,
     if (!lost.empty())
         throw AlgorithmFailure("tetrahedralize: the improved mesh is not valid (" + lost +
                                "); use improve=0");
-    if (!result.report.surface_kept)
-        result.report.warnings.emplace_back(
-            "TetGen had to divide triangles of the surface: the volume mesh's boundary is finer "
-            "than the surface");
+    if (!result.report.surface_kept) result.report.warnings.push_back({.code = "surface-divided"});
     result.report.quality = volume_quality(result.mesh, faces);
     if (parameters.cells) warn_of_number(*parameters.cells, result.report);
     return result;

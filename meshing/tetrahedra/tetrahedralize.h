@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/kernel/diagnostic.h"
 #include "geometry/kernel/progress.h"
 #include "geometry/kernel/surface.h"
 #include "meshing/tetrahedra/quality.h"
@@ -24,7 +25,7 @@ struct TetrahedralizeReport {
     double size = 1.0;                  ///< the edge length factor used [-]
     std::string switches;               ///< TetGen's switches that led to the mesh
     std::vector<std::string> attempts;  ///< each call of TetGen: switches and outcome
-    std::vector<std::string> warnings;
+    std::vector<Diagnostic> warnings;
     bool surface_kept = true;  ///< the boundary triangles are the surface's triangles
     VolumeQuality raw;         ///< as TetGen left it
     VolumeQuality quality;     ///< of the mesh returned

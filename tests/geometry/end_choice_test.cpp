@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/image/extract_surface.h"
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/edges.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
@@ -650,17 +651,21 @@ SCENARIO("A failure names all ends, and a way on that was tried", "[geometry][op
             options.failed.push_back({place.tip, place.plane.point, "it failed"});
         }
         const OpeningPlan plan = plan_openings(tube, line, options);
-        std::string text;
+        std::vector<Diagnostic> found;
         try {
             check_flow(plan, tube, line, options);
-        } catch (const AlgorithmFailure& failure) {
-            text = failure.what();
+        } catch (const DiagnosedFailure& failure) {
+            found = failure.diagnostics();
         }
-        const std::string command = "project.vbench clip-opening tip=0,0,30 distance=";
-        REQUIRE_THAT(text, Contains("there is one only") && Contains(" kept at ") &&
-                               Contains(" closed at ") && Contains("it failed") &&
-                               Contains(command));
-        const double distance = std::stod(text.substr(text.find(command) + command.size()));
+        REQUIRE_FALSE(found.empty());
+        CHECK(found[0].code == "too-few-openings");
+        CHECK(found[0].words.at("found") == "only one");
+        CHECK_THAT(found[0].words.at("ends"),
+                   Contains(" kept at ") && Contains(" closed at ") && Contains("it failed"));
+        REQUIRE(found[0].remedies.size() == 1);
+        CHECK(found[0].remedies[0].before);
+        CHECK(found[0].remedies[0].arguments.at("tip") == "0,0,30");
+        const double distance = std::stod(found[0].remedies[0].arguments.at("distance"));
         CHECK(plan_openings(tube, line, {.tip = Vec3(0, 0, 30), .distance = distance})
                   .openings.size() == 1);
     }

@@ -91,7 +91,9 @@ SCENARIO("Reynolds number and warnings", "[meshing][inflow]") {
     GIVEN("thirty times that flow, in a bend") {
         const FlowSummary summary = flow_summary(tube, {.flow = 36.0}, 40.0);
         THEN("both are warned of") {
-            CHECK(summary.warnings.size() == 2);
+            REQUIRE(summary.warnings.size() == 2);
+            CHECK(summary.warnings[0].code == "flow-not-laminar");
+            CHECK(summary.warnings[1].figures.at("turn_deg") == 40.0);
         }
     }
     GIVEN("a closed sphere without openings") {

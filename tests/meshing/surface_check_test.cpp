@@ -46,7 +46,8 @@ SCENARIO("each defect of a surface is found and placed", "[meshing][check]") {
             CHECK(problems[0].count == 3);
             CHECK(problems[0].places.size() == 3);
             CHECK(problems[0].places[0].norm() > 1.0);
-            CHECK(to_string(problems[0]).find("gap") != std::string::npos);
+            CHECK(diagnostic_of(problems[0]).code == "surface-gap");
+            CHECK(diagnostic_of(problems[0]).figures.at("count") == 3.0);
         }
     }
     GIVEN("two spheres that overlap") {

@@ -136,10 +136,10 @@ SCENARIO("the number of cells follows the request", "[meshing][tetrahedralize]")
 SCENARIO("a number of cells that the surface does not allow is not tried again and again",
          "[meshing][tetrahedralize]") {
     const auto result = tetrahedralized(test::fine_tube(2.0, 10.0, 24), {.cells = 100.0});
-    CAPTURE(result.report.attempts, result.report.warnings);
+    CAPTURE(result.report.attempts, result.report.warnings.size());
     CHECK(result.report.attempts.size() == 2);
     REQUIRE(result.report.warnings.size() == 1);
-    CHECK(result.report.warnings[0].find("edge length limits the number") != std::string::npos);
+    CHECK(result.report.warnings[0].code == "cells-limited");
 }
 
 SCENARIO("surfaces that cannot be filled are refused with cause and place",

@@ -85,7 +85,7 @@ Outcome bump(const Scene& scene, const Arguments& arguments, Progress& progress)
     Outcome result =
         made(with_surface(scene, surface.with_positions(std::move(points))), arguments);
     result.resolved.set("height", height);
-    if (moved == 1) result.warnings.emplace_back("only one vertex moved");
+    if (moved == 1) result.warnings.push_back(plain_text("only one vertex moved"));
     return result;
 }
 
@@ -190,7 +190,7 @@ Outcome read_much(const Scene& scene, const Arguments& arguments, Progress&) {
     const std::vector<char> content(static_cast<std::size_t>(arguments.integer("megabytes")) << 20,
                                     '\1');
     Outcome result = made(scene, arguments);
-    result.warnings.push_back(std::to_string(content.back()));
+    result.warnings.push_back(plain_text(std::to_string(content.back())));
     return result;
 }
 
@@ -213,14 +213,14 @@ Outcome stubborn(const Scene& scene, const Arguments& arguments, Progress& progr
 Outcome greedy(const Scene& scene, const Arguments& arguments, Progress&) {
     std::vector<double> all(std::size_t{1} << 30, 1.0);
     Outcome result = made(scene, arguments);
-    result.warnings.push_back(std::to_string(all.back()));
+    result.warnings.push_back(plain_text(std::to_string(all.back())));
     return result;
 }
 
 /// Its warning is the number of the process, its device a GPU's.
 Outcome where(const Scene& scene, const Arguments& arguments, Progress&) {
     Outcome result = made(scene, arguments);
-    result.warnings.push_back(std::to_string(getpid()));
+    result.warnings.push_back(plain_text(std::to_string(getpid())));
     result.device = "gpu";
     return result;
 }

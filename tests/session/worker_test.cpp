@@ -61,7 +61,7 @@ SCENARIO("An isolated operation gives the same result as in process", "[session]
 SCENARIO("Where all operations run in workers, some stay", "[session][worker]") {
     WorkerOptions worker = test::test_worker();
     worker.every_operation = true;
-    const std::vector<std::string> here = {std::to_string(getpid())};
+    const std::vector<Diagnostic> here = {plain_text(std::to_string(getpid()))};
     const Outcome near = run("where", sphere(), {{"here", true}}, worker);
     const Outcome far = run("where", sphere(), {{"here", false}}, worker);
     CHECK(near.warnings == here);

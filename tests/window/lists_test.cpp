@@ -156,6 +156,17 @@ SCENARIO("A message names the operation that its text recommends", "[window][mes
     CHECK(remedy_in("remesh failed: use repair", "remesh") == "repair");
     CHECK(remedy_in("it is remeshed and smoother", "").empty());
     CHECK(make_message(MessageKind::Remark, "use repair").remedy.empty());
+    const Diagnostic gap{.code = "surface-gap",
+                         .severity = Severity::Error,
+                         .operation = "tetrahedralize",
+                         .place = Vec3(1, 0, 0),
+                         .figures = {{"count", 3.0}},
+                         .words = {{"places", "(1, 0, 0) mm"}},
+                         .remedies = {{.operation = "fill-hole"}, {.operation = "repair"}}};
+    const Message failed = make_message(gap);
+    CHECK(failed.kind == MessageKind::Error);
+    CHECK(failed.remedy == "fill-hole");
+    CHECK(failed.place == Vec3(1, 0, 0));
 }
 
 SCENARIO("Settings remember recent projects", "[window][settings]") {

@@ -118,9 +118,13 @@ SCENARIO("A recipe's lines are put in the window's words", "[window][obstacles]"
     const Message done = message_from("openings: clip-opening (0.3 s): volume -3 %");
     CHECK(done.text == "Clip opening (0.3 s): volume -3 %");
     CHECK(done.kind == MessageKind::Remark);
-    const Message noticed = message_from("warning: clip-opening: outlet_1: its end was kept");
-    CHECK(noticed.text == "Clip opening: outlet_1: its end was kept");
+    const Message noticed = make_message({.code = "opening-in-bend",
+                                          .operation = "clip-opening",
+                                          .place = Vec3(1, 2, 3),
+                                          .figures = {{"turn_deg", 40.0}}});
+    CHECK_THAT(noticed.text, Catch::StartsWith("Clip opening: the opening at (1, 2, 3) mm lies"));
     CHECK(noticed.kind == MessageKind::Warning);
+    CHECK(noticed.place == Vec3(1, 2, 3));
     CHECK(message_from("read-only: another program has it").text ==
           "read-only: another program has it");
     CHECK(message_from("openings (2)").text == "openings (2)");

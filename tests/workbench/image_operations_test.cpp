@@ -134,7 +134,9 @@ SCENARIO("extract-surface reports its decisions and replays them", "[workbench][
     THEN("a threshold that makes the vessel too wide is a warning with the figure") {
         const auto warnings = run("extract-surface", loaded, {{"threshold", 10.0}}).warnings;
         REQUIRE(warnings.size() == 1);
-        CHECK_THAT(warnings[0], Contains("% larger") && Contains("threshold=local"));
+        CHECK(warnings[0].code == "threshold-changes-volume");
+        CHECK(warnings[0].words.at("larger") == "larger");
+        CHECK(warnings[0].remedies == std::vector<Remedy>{{.arguments = {{"threshold", "local"}}}});
         CHECK(run("extract-surface", loaded, {{"threshold", 48.0}}).warnings.empty());
     }
     THEN("cleaning is reported") {
@@ -169,13 +171,14 @@ SCENARIO("A handle of the lumen is named with its place and size", "[workbench][
     };
     const Outcome large = run("extract-surface", ring(10.0), {});
     REQUIRE(large.warnings.size() == 1);
-    CHECK_THAT(large.warnings[0],
-               Contains("handle at") && Contains("mm around") && Contains("circle of Willis"));
-    CHECK_THAT(run("extract-surface", ring(4.0), {}).warnings.at(0), Contains("artefact"));
+    CHECK(large.warnings[0].code == "handle");
+    CHECK(large.warnings[0].place);
+    CHECK(large.warnings[0].figures.at("length_mm") > large.warnings[0].figures.at("width_mm"));
+    CHECK(run("extract-surface", ring(4.0), {}).warnings.at(0).code == "handle-artefact");
     THEN("repair names it in a surface without an image") {
         Scene alone;
         alone.surface = large.scene.surface;
-        CHECK_THAT(run("repair", alone, {}).warnings.at(0), Contains("handle at"));
+        CHECK(run("repair", alone, {}).warnings.at(0).code == "handle");
         CHECK(run("repair", large.scene, {}).warnings.empty());
     }
 }
@@ -216,7 +219,8 @@ SCENARIO("extract-surface warns about labels in an intensity image", "[workbench
     };
     CHECK(warnings(2.0).empty());
     REQUIRE(warnings(0.25).size() == 1);
-    CHECK_THAT(warnings(0.25)[0], Contains("0.25") && Contains("method=threshold"));
+    CHECK(warnings(0.25)[0].code == "not-a-label-map");
+    CHECK(warnings(0.25)[0].words.at("value") == "0.25");
 }
 
 SCENARIO("extract-surface says that it takes several labels together", "[workbench][images]") {
@@ -228,7 +232,8 @@ SCENARIO("extract-surface says that it takes several labels together", "[workben
     });
     const Outcome all = run("extract-surface", scene, {{"method", "labels"}});
     REQUIRE(all.warnings.size() == 1);
-    CHECK_THAT(all.warnings[0], Contains("labels 3, 7") && Contains("labels=3,7"));
+    CHECK(all.warnings[0].words.at("labels") == "labels 3, 7");
+    CHECK(all.warnings[0].remedies == std::vector<Remedy>{{.arguments = {{"labels", "3,7"}}}});
     CHECK(all.report->at("headline") == "labels 3, 7");
     const Outcome one = run("extract-surface", scene, {{"labels", std::vector<double>{7.0}}});
     CHECK(one.warnings.empty());
@@ -238,7 +243,7 @@ SCENARIO("extract-surface says that it takes several labels together", "[workben
         const Outcome masked = run("extract-surface", scene, {{"threshold", 1.0}});
         CHECK(masked.resolved.text("method") == "masked");
         REQUIRE_FALSE(masked.warnings.empty());
-        CHECK_THAT(masked.warnings.back(), Contains("labels 3, 7"));
+        CHECK(masked.warnings.back().words.at("labels") == "labels 3, 7");
     }
 }
 

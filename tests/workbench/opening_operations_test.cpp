@@ -131,7 +131,8 @@ SCENARIO("extrude-opening lengthens all openings by diameters", "[workbench][ope
         CHECK(limited.report->at("openings")[0]["length_mm"].get<double>() ==
               Approx(0.3 * extent).epsilon(1e-6));
         REQUIRE(limited.warnings.size() == 1);
-        CHECK_THAT(limited.warnings[0], Catch::Contains("share="));
+        CHECK(limited.warnings[0].code == "extrusion-limited");
+        CHECK(limited.warnings[0].figures.at("share") == 0.3);
         const Outcome given = run("extrude-opening", tube, {{"length", 12.0}});
         CHECK(given.warnings.empty());
         CHECK(given.report->at("openings")[0]["length_mm"].get<double>() == Approx(12.0));
@@ -155,7 +156,8 @@ SCENARIO("extrude-opening leaves out an opening with a vessel right in front of 
     REQUIRE(outcome.report->at("openings").size() == 1);
     CHECK(outcome.report->at("openings")[0]["name"] == "inlet");
     REQUIRE(outcome.warnings.size() == 1);
-    CHECK_THAT(outcome.warnings[0], Contains("'outlet_1'") && Contains("in its way"));
+    CHECK(outcome.warnings[0].code == "opening-not-extruded");
+    CHECK(outcome.warnings[0].words.at("opening") == "outlet_1");
     CHECK(bounds(*outcome.scene.surface).min.z() == Approx(-5.0));
     check_replay("extrude-opening", both, outcome);
     CHECK_THROWS_AS(run("extrude-opening", both, {{"length", 5.0}, {"opening", "outlet_1"}}),
@@ -311,7 +313,10 @@ SCENARIO("An open rim that is closed is named, however small", "[workbench][open
     const Outcome outcome = run("clip-opening", select_triangles(tube, keep), {});
     REQUIRE(outcome.report->at("openings").size() == 2);
     REQUIRE(outcome.warnings.size() == 1);
-    CHECK_THAT(outcome.warnings[0], Contains("the open rim at (") && Contains("was closed"));
+    CHECK(outcome.warnings[0].code == "end-decided");
+    CHECK(outcome.warnings[0].place);
+    CHECK(outcome.warnings[0].words.at("end") == "the open rim");
+    CHECK(outcome.warnings[0].words.at("fate") == "closed");
 }
 
 SCENARIO("remove-branch leaves the parent's tube", "[workbench][openings]") {

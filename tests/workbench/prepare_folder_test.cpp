@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/formats/surface_file.h"
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/whole_file.h"
 #include "tests/support/paths.h"
 #include "tests/support/program.h"
@@ -208,7 +209,7 @@ SCENARIO("The report knows results of earlier preparations", "[workbench][prepar
 
 SCENARIO("A report that stopped knows them as well", "[workbench][prepare-folder]") {
     const fs::path folder = temporary_folder();
-    const DiagnosedFailure failure("the ends are in doubt", {});
+    const DiagnosedFailure failure(plain_text("the ends are in doubt"));
     const Json report =
         refusal_json({.purpose = "cfd"}, failure, {"surface.stl", "report.html", "../secret"});
     write_text(folder / "report.json", report.dump());

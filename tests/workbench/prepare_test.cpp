@@ -152,7 +152,9 @@ SCENARIO("A model that has lost a vessel is an error", "[workbench][prepare]") {
     THEN("where vessels cannot be looked for, a warning says so") {
         const Surface nothing =
             make_surface({Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}, {Triangle{0, 1, 2}});
-        CHECK_THAT(compared_vessels({nothing, {}}, half).warning, Contains("could not be"));
+        const auto warning = compared_vessels({nothing, {}}, half).warning;
+        REQUIRE(warning);
+        CHECK(warning->code == "vessels-not-compared");
     }
 }
 
@@ -555,8 +557,8 @@ SCENARIO("What a resumed preparation runs is told, and its report has all warnin
     REQUIRE(first.exit_code == 0);
     const Json before = report();
     REQUIRE_FALSE(told(first, "clip-opening").empty());
-    REQUIRE_FALSE(told(first, "remesh with edge=0.6 instead").empty());
-    REQUIRE_FALSE(told(first, "remove-branch was skipped").empty());
+    REQUIRE_FALSE(told(first, "remesh: it was made with edge=0.6 instead").empty());
+    REQUIRE_FALSE(told(first, "remove-branch: the step was skipped").empty());
     REQUIRE(run({"change", out + "/project.vbench", "2", "caps=false"}).exit_code == 0);
     auto again = command;
     again.emplace_back("--resume");
@@ -710,7 +712,7 @@ SCENARIO("The unit of a prepared case can be changed", "[workbench][prepare]") {
     const ProgramRun changed = run({"change", project, "1", "units=cm"});
     INFO(changed.err);
     REQUIRE(changed.exit_code == 0);
-    CHECK_THAT(changed.out, Contains("clip-opening") && Contains("choose anew") &&
+    CHECK_THAT(changed.out, Contains("clip-opening") && Contains("choose again what") &&
                                 Contains("clip-opening were scaled with the model, by 10\n") &&
                                 Contains("extrude-opening length=1\n"));
     const ProgramRun resumed = with({"--resume"});

@@ -145,13 +145,12 @@ SCENARIO("clip-opening: the further inlets that it proposes become inlets",
         after("repair", iso_surface(pair, {Vec3(-9, -5, -22), Vec3(9, 5, 22)}, 0.5));
     const Outcome first = run("clip-opening", surface, {});
     std::string proposed;
-    for (const std::string& warning : first.warnings)
-        if (warning.find("the same way as the inlet") != std::string::npos) proposed = warning;
-    CAPTURE(proposed);
-    std::smatch found;
-    REQUIRE(std::regex_search(proposed, found, std::regex("give inlet=([0-9.,e+-]+)")));
+    for (const Diagnostic& warning : first.warnings)
+        if (warning.code == "further-inlet")
+            proposed = warning.remedies.at(0).arguments.at("inlet");
+    REQUIRE_FALSE(proposed.empty());
     const auto given = arguments_from_texts(find_operation("clip-opening"),
-                                            std::vector<std::string>{"inlet=" + found[1].str()});
+                                            std::vector<std::string>{"inlet=" + proposed});
     const Surface made = after("clip-opening", surface, *given.operator->());
     CHECK(made.patches[1] == Patch{"inlet_1", PatchKind::Inlet});
     CHECK(made.patches[2] == Patch{"inlet_2", PatchKind::Inlet});
@@ -160,9 +159,9 @@ SCENARIO("clip-opening: the further inlets that it proposes become inlets",
 
 SCENARIO("tetrahedralize: keep-component and repair make one sound part", "[workbench][remedies]") {
     const Surface two = merged(icosphere(3.0, 3), icosphere(2.0, 3, Vec3(20, 0, 0)));
-    CHECK_THAT(refusal_of("tetrahedralize", two), Contains("run `keep-component`"));
+    CHECK_THAT(refusal_of("tetrahedralize", two), Contains("use keep-component"));
     CHECK(run("tetrahedralize", after("keep-component", two), {}).scene.volume_mesh);
     const Surface turned = flipped(icosphere(3.0, 3));
-    CHECK_THAT(refusal_of("tetrahedralize", turned), Contains("`repair`"));
+    CHECK_THAT(refusal_of("tetrahedralize", turned), Contains("use repair"));
     CHECK(run("tetrahedralize", after("repair", turned), {}).scene.volume_mesh);
 }

@@ -110,8 +110,9 @@ SCENARIO("A mask of slices twice as thick as voxels has no staircase for the the
         const Outcome outcome =
             smooth(scene, {{"tau_theta", 0.7}, {"tau_max", 3.0}, {"beta_min", beta_min}});
         REQUIRE(outcome.warnings.size() == 1);
-        CHECK_THAT(outcome.warnings.front(), Catch::Contains("tau_theta = 0.7"));
-        CHECK_THAT(outcome.warnings.front(), Catch::Contains("beta_min"));
+        CHECK(outcome.warnings.front().figures.at("tau_theta") == 0.7);
+        const std::string code = outcome.warnings.front().code;
+        CHECK((code == "hardly-any-staircases" || code == "nothing-moved"));
         CHECK(smooth(scene, {{"beta_min", beta_min}}).warnings.empty());
     }
 }
@@ -132,7 +133,7 @@ SCENARIO("Interpolated intensities have staircases where slices are thick",
         CHECK(plain.resolved.real("tau_theta") > step_change(0.85, 0.5));
         CHECK_THAT(decisions(plain), Catch::Contains("thin vessel"));
         REQUIRE(plain.warnings.size() == 1);
-        CHECK_THAT(plain.warnings.front(), Catch::Contains("staircases"));
+        CHECK(plain.warnings.front().code == "hardly-any-staircases");
         CHECK(moved_vertices(*thin.surface, *plain.scene.surface) > 0);
     }
 }

@@ -55,7 +55,8 @@ SCENARIO("load-surface asks where two units are near", "[workbench][source]") {
     const Outcome guessed = run("load-surface", {}, {{"file", file}, {"units", "guess"}});
     CHECK(guessed.resolved.text("units") == "mm");
     REQUIRE(guessed.warnings.size() == 1);
-    CHECK_THAT(guessed.warnings[0], Contains("in cm it is 123 mm long"));
+    CHECK(guessed.warnings[0].code == "unit-guessed");
+    CHECK_THAT(guessed.warnings[0].words.at("doubt"), Contains("in cm it is 123 mm long"));
     CHECK(run("load-surface", {}, {{"file", file}, {"units", "cm"}}).warnings.empty());
 }
 
@@ -67,8 +68,10 @@ SCENARIO("load-surface warns of a unit in which it is no vessel", "[workbench][s
     };
     CHECK(warnings("mm").empty());
     REQUIRE(warnings("m").size() == 1);
-    CHECK_THAT(warnings("m")[0],
-               Contains("is read in m, as asked") && Contains("a vessel's size in mm only"));
+    const Diagnostic unlikely = warnings("m")[0];
+    CHECK(unlikely.code == "unit-unlikely");
+    CHECK(unlikely.words.at("units") == "m");
+    CHECK(unlikely.words.at("likely") == "mm");
 }
 
 SCENARIO("keep-component keeps the largest part, several, or the one at a point",
@@ -100,7 +103,10 @@ SCENARIO("repair lists its actions, and its replay gives the same bits", "[workb
                })));
     const Outcome lost = run("repair", broken, {});
     REQUIRE(lost.warnings.size() == 1);
-    CHECK_THAT(lost.warnings[0], Catch::Contains("a vessel; keep_components=2 keeps it"));
+    CHECK(lost.warnings[0].code == "vessel-removed");
+    CHECK(lost.warnings[0].place->x() == Approx(9.0).margin(0.5));
+    CHECK(lost.warnings[0].remedies ==
+          std::vector<Remedy>{{.arguments = {{"keep_components", "2"}}}});
     CHECK(run("repair", broken, {{"keep_components", std::int64_t{2}}}).warnings.empty());
     const Outcome again = run("repair", scene, outcome.resolved);
     CHECK(again.scene.surface->points() == outcome.scene.surface->points());

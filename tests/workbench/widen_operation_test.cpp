@@ -40,14 +40,17 @@ Surface tube_with_thread() {
 SCENARIO("widen takes half the image's smallest voxel edge, and names the place",
          "[workbench][widen]") {
     Scene scene = scene_of(tube_with_thread());
-    CHECK_THROWS_WITH(widened(scene, {}), Contains("give width="));
+    CHECK_THROWS_WITH(widened(scene, {}), Contains("give width"));
     scene.sampling = Sampling{.spacing = Vec3(1.0, 1.2, 3.0), .confidence = 1.0};
     const Outcome outcome = widened(scene, {});
     CHECK(outcome.resolved.real("width") == 0.5);
     REQUIRE(outcome.warnings.size() == 1);
-    CHECK_THAT(outcome.warnings[0], Contains("narrower than 0.5 mm at 1 place") &&
-                                        Contains("from 0.1") &&
-                                        Contains("whether vessels are joined there at all"));
+    const Diagnostic& warning = outcome.warnings[0];
+    CHECK(warning.code == "lumen-widened");
+    CHECK(warning.place->z() == Approx(15.0).margin(0.5));
+    CHECK(warning.figures.at("limit_mm") == 0.5);
+    CHECK(warning.figures.at("places") == 1.0);
+    CHECK(warning.figures.at("width_mm") == Approx(0.1).margin(0.05));
     const auto& places = outcome.report->at("places");
     REQUIRE(places.size() == 1);
     CHECK(places[0].at("place_mm")[2].get<double>() == Approx(15.0).margin(0.5));
@@ -70,6 +73,7 @@ SCENARIO("widen does not push a thread through a wall beside it", "[workbench][w
     REQUIRE(self_intersections(*scene.surface).empty());
     const Outcome outcome = widened(scene, {{"width", 0.8}});
     CHECK(self_intersections(*outcome.scene.surface).empty());
-    CHECK_THAT(outcome.warnings.at(0), Contains("walls would have passed through each other"));
-    CHECK_THAT(outcome.warnings.at(2), Contains("still narrow at 1 place"));
+    CHECK(outcome.warnings.at(0).code == "widening-crosses-walls");
+    CHECK(outcome.warnings.at(2).code == "still-narrow");
+    CHECK(outcome.warnings.at(2).figures.at("places") == 1.0);
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/kernel/diagnostic.h"
 #include "workbench/case/history.h"
 
 namespace vesselbench {
@@ -45,7 +46,7 @@ struct ResultRecord {
     ResultId input = 0;
     std::string stale_reason;
     Arguments resolved;
-    std::vector<std::string> warnings;
+    std::vector<Diagnostic> warnings;
     std::string report;  ///< JSON; may be empty
     SurfaceChange change;
     double duration = 0.0;        ///< [s]

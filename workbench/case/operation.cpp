@@ -52,10 +52,9 @@ Outcome run_here(const Operation& operation, const Scene& scene, const CheckedAr
     return operation.start(scene, arguments, starting)->outcome(figures);
 }
 
-std::vector<std::string> arguments_without_effect(const Operation& operation,
-                                                  const Arguments& given,
-                                                  const Arguments& resolved) {
-    std::vector<std::string> warnings;
+std::vector<Diagnostic> arguments_without_effect(const Operation& operation, const Arguments& given,
+                                                 const Arguments& resolved) {
+    std::vector<Diagnostic> warnings;
     for (const Parameter& parameter : operation.parameters) {
         if (!parameter.only_with || !given.has(parameter.name)) continue;
         const auto value = resolved.values().find(parameter.only_with->parameter);
@@ -63,8 +62,10 @@ std::vector<std::string> arguments_without_effect(const Operation& operation,
             value != resolved.values().end() &&
             std::ranges::count(parameter.only_with->values, to_text(value->second)) > 0;
         if (!holds)
-            warnings.push_back(operation.name + ": " + parameter.name + " has no effect without " +
-                               to_string(*parameter.only_with));
+            warnings.push_back({.code = "argument-without-effect",
+                                .operation = operation.name,
+                                .words = {{"argument", parameter.name},
+                                          {"condition", to_string(*parameter.only_with)}}});
     }
     return warnings;
 }

@@ -76,10 +76,10 @@ struct Operation {
 /// The operation's first parameter of a meaning; null: none.
 [[nodiscard]] const Parameter* parameter_of(const Operation& operation, Meaning meaning);
 
-/// Given arguments that had no effect, as warnings: "margin has no effect without distance=margin".
+/// Given arguments that had no effect, as warnings.
 /// \param resolved the arguments that the operation finally ran with
-[[nodiscard]] std::vector<std::string> arguments_without_effect(const Operation& operation,
-                                                                const Arguments& given,
-                                                                const Arguments& resolved);
+[[nodiscard]] std::vector<Diagnostic> arguments_without_effect(const Operation& operation,
+                                                               const Arguments& given,
+                                                               const Arguments& resolved);
 
 }  // namespace vesselbench

@@ -2,6 +2,9 @@
 
 #include <optional>
 #include <string>
+#include <vector>
+
+#include "geometry/kernel/diagnostic.h"
 
 namespace vesselbench {
 
@@ -24,9 +27,9 @@ struct RecipePart {
     bool proves_source = false;      ///< if it fails, the input is bad, not the recipe
     bool cuts_ends = false;          ///< the source has no counterpart beyond the openings it makes
     bool makes_volume_mesh = false;  ///< its report has the mesh's `quality`
-    /// What to try if it changes the volume noticeably: "fewer iterations keep it". Empty: it may
-    /// change the volume.
-    std::string volume_remedy = {};
+    /// What to try if it changes the volume noticeably: less of the first, or the second. Empty: it
+    /// may change the volume.
+    std::vector<Remedy> volume_remedies = {};
     /// Section of prepare's report that repeats its own report; none: listed among the steps only.
     std::optional<ReportSection> report_section = std::nullopt;
 };

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "geometry/kernel/diagnostic.h"
 #include "geometry/kernel/progress.h"
 #include "workbench/case/arguments.h"
 #include "workbench/case/scene.h"
@@ -22,8 +23,8 @@ struct Outcome {
     Scene scene;
     Report report;
     Arguments resolved;
-    std::vector<std::string> warnings;
-    std::string device = "cpu";  ///< that computed the scene: "cpu" or "gpu"
+    std::vector<Diagnostic> warnings;  ///< of no operation: of the one that ran
+    std::string device = "cpu";        ///< that computed the scene: "cpu" or "gpu"
 };
 
 /// An operation that is driven live: started on a scene, then given arguments as they arrive. Its

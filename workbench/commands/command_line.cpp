@@ -6,7 +6,7 @@
 #include <iostream>
 #include <memory>
 
-#include "geometry/kernel/diagnostic.h"
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
 #include "workbench/case/near_names.h"
@@ -156,8 +156,8 @@ int run_command(const CommandLine& line) {
         throw UsageError(with_project(error.what(), project));
     } catch (const InvalidInput& error) {
         throw InvalidInput(with_project(error.what(), project));
-    } catch (const DiagnosedFailure& error) {
-        throw DiagnosedFailure(with_project(error.what(), project), error.diagnostics());
+    } catch (const Diagnosed&) {
+        throw;
     } catch (const AlgorithmFailure& error) {
         throw AlgorithmFailure(with_project(error.what(), project));
     }
@@ -186,6 +186,8 @@ int run_command_line(int argc, char** argv, const std::stop_token& stop, FailedC
     }
     if (const CLI::Option* edit = given_option(line.app, "EDIT"))
         command.edit = edit->as<std::int64_t>();
+    command.audience = {.project = project_of(line.app),
+                        .preparing = line.app.got_subcommand("prepare")};
     return run_command(line);
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/kernel/diagnostic.h"
+#include "workbench/case/diagnostic_words.h"
 
 namespace vesselbench {
 
@@ -13,6 +13,7 @@ namespace vesselbench {
 struct FailedCommand {
     bool json = false;                 ///< --json was given
     std::optional<std::int64_t> edit;  ///< that it names (EDIT); none: no such argument
+    Audience audience = {};            ///< what its reader knows
 };
 
 /// Why a command failed.

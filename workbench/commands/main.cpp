@@ -11,9 +11,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/kernel/diagnostic.h"
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/whole_file.h"
+#include "workbench/case/diagnostic_words.h"
 #include "workbench/commands/command_line.h"
 #include "workbench/commands/console.h"
 #include "workbench/commands/failure.h"
@@ -29,34 +30,40 @@ constexpr int kBadInput = 3;
 
 int run(int argc, char** argv, const std::stop_token& stop) {
     vesselbench::FailedCommand command;
-    const auto fail = [&](const char* text, int code,
-                          const std::vector<vesselbench::Diagnostic>& diagnostics = {}) {
+    const auto fail = [&](const std::exception& error, int code) {
+        std::vector<vesselbench::Diagnostic> diagnostics;
+        if (dynamic_cast<const vesselbench::Diagnosed*>(&error) != nullptr)
+            diagnostics = vesselbench::diagnostics_of(error);
+        for (vesselbench::Diagnostic& diagnostic : diagnostics)
+            if (!diagnostic.edit) diagnostic.edit = command.edit;
+        const std::string text =
+            diagnostics.empty() ? error.what() : worded(diagnostics.front(), command.audience);
         return vesselbench::report_failure({text, code, diagnostics}, command);
+    };
+    const auto fail_with = [&](const std::string& text, int code) {
+        return vesselbench::report_failure({text, code, {}}, command);
     };
     try {
         return vesselbench::run_command_line(argc, argv, stop, command);
     } catch (const vesselbench::UsageError& error) {
-        return fail(error.what(), kWrongUsage);
+        return fail(error, kWrongUsage);
     } catch (const vesselbench::InvalidInput& error) {
-        return fail(error.what(), kBadInput);
+        return fail(error, kBadInput);
     } catch (const vesselbench::Cancelled&) {
-        return fail("stopped (cancelled); what was finished before is kept", kFailed);
+        return fail_with("stopped (cancelled); what was finished before is kept", kFailed);
     } catch (const vesselbench::IoError& error) {
-        return fail(error.what(), kBadInput);
+        return fail(error, kBadInput);
     } catch (const std::filesystem::filesystem_error& error) {
         const std::string name = vesselbench::bare_name(error.path1());
-        return fail((name + " cannot be used (" + error.code().message() +
-                     "): check its name and the permissions of its folders")
-                        .c_str(),
-                    kBadInput);
-    } catch (const vesselbench::DiagnosedFailure& error) {
-        return fail(error.what(), kFailed, error.diagnostics());
+        return fail_with(name + " cannot be used (" + error.code().message() +
+                             "): check its name and the permissions of its folders",
+                         kBadInput);
     } catch (const nlohmann::json::exception&) {
-        return fail("stored or given JSON data are not as expected", kFailed);
+        return fail_with("stored or given JSON data are not as expected", kFailed);
     } catch (const std::bad_alloc&) {
-        return fail("not enough memory for this model: crop it or make it coarser", kFailed);
+        return fail_with("not enough memory for this model: crop it or make it coarser", kFailed);
     } catch (const std::exception& error) {
-        return fail(error.what(), kFailed);
+        return fail(error, kFailed);
     }
 }
 

@@ -7,6 +7,8 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/pending_files.h"
 #include "geometry/kernel/printable.h"
+#include "workbench/case/diagnostic_json.h"
+#include "workbench/case/diagnostic_words.h"
 #include "workbench/case/json_text.h"
 #include "workbench/case/purposes.h"
 #include "workbench/case/shell_text.h"
@@ -26,12 +28,16 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 void print_prepared(const PrepareArguments& arguments, const PrepareSummary& made) {
+    std::vector<std::string> warnings;
+    for (const Diagnostic& warning : made.warnings)
+        warnings.push_back(worded_with_operation(warning));
     std::cout << text_from_json(Json({{"purpose", arguments.purpose},
                                       {"folder", arguments.out},
                                       {"project", "project.vbench"},
                                       {"reports", {"report.json", "report.html"}},
                                       {"products", made.products},
-                                      {"warnings", made.warnings}}),
+                                      {"warnings", warnings},
+                                      {"diagnostics", diagnostics_json(made.warnings)}}),
                                 2)
               << "\n";
 }
@@ -64,7 +70,11 @@ void prepare_case(const PrepareArguments& arguments, const Progress& progress) {
     const Purpose& purpose = find_purpose(arguments.purpose);
     const std::filesystem::path out = arguments.out;
     const std::string project = (out / "project.vbench").string();
-    const auto tell = [&](const std::string& text) { remark(with_project(text, project)); };
+    const Teller tell([&](const std::string& text) { remark(with_project(text, project)); },
+                      [&](const Diagnostic& warning) {
+                          const Audience reader{.project = project, .preparing = true};
+                          remark("warning: " + worded_with_operation(warning, reader));
+                      });
     const PrepareSummary made = prepare({.input = input_options(arguments.input, arguments.name),
                                          .purpose = arguments.purpose,
                                          .recipe = arguments.recipe,

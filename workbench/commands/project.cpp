@@ -8,6 +8,7 @@
 #include "geometry/kernel/printable.h"
 #include "geometry/kernel/wording.h"
 #include "workbench/case/argument_texts.h"
+#include "workbench/case/diagnostic_words.h"
 #include "workbench/case/json_text.h"
 #include "workbench/commands/commands.h"
 #include "workbench/commands/console.h"
@@ -93,7 +94,7 @@ void print_pending(const Snapshot& now) {
     const bool anew = std::ranges::any_of(pending, [&](const EditRecord* edit) {
         return now.history->newest_result_of(edit->edit) == nullptr;
     });
-    if (anew) std::cout << "they choose anew what they had chosen by themselves\n";
+    if (anew) std::cout << "they also choose again what they chose automatically\n";
 }
 
 /// What another unit of the model did to the arguments of the later edits.
@@ -273,10 +274,12 @@ void print_replay(const std::vector<ReplayEntry>& entries) {
     std::cout << as_columns(rows);
 }
 
-std::vector<std::string> all_warnings(const Operation& operation, const Arguments& given,
-                                      const ResultRecord& result) {
-    std::vector<std::string> warnings = arguments_without_effect(operation, given, result.resolved);
-    warnings.insert(warnings.end(), result.warnings.begin(), result.warnings.end());
+/// With the edit, for its command.
+std::vector<Diagnostic> all_warnings(const LogEntry& entry, const Arguments& given) {
+    std::vector<Diagnostic> warnings = arguments_without_effect(
+        find_operation(entry.edit.operation), given, entry.result->resolved);
+    warnings.insert(warnings.end(), entry.result->warnings.begin(), entry.result->warnings.end());
+    for (Diagnostic& warning : warnings) warning.edit = entry.edit.edit.id;
     return warnings;
 }
 
@@ -292,11 +295,10 @@ void print_edit(const LogEntry& entry) {
     print_report(entry.result->report);
 }
 
-void remark_warnings(const LogEntry& entry, const Arguments& given) {
+void remark_warnings(const LogEntry& entry, const Arguments& given, const std::string& project) {
     if (!entry.result) return;
-    for (const std::string& warning :
-         all_warnings(find_operation(entry.edit.operation), given, *entry.result))
-        remark("warning: " + warning);
+    for (const Diagnostic& warning : all_warnings(entry, given))
+        remark("warning: " + worded(warning, {.project = project}));
 }
 
 const EditRecord& edit_of(const Snapshot& now, EditId id) {
@@ -316,7 +318,7 @@ void apply_operation(const ApplyOptions& options, const Progress& progress) {
     Session session = Session::open(options.project, {.find = find_operation});
     edit.variant = variant_of(options.project, options.variant, *session.snapshot()->history);
     const LogEntry entry = session.apply(given, edit, progress);
-    remark_warnings(entry, given);
+    remark_warnings(entry, given, options.project);
     if (options.json)
         std::cout << text_from_json(log_json(entry), 2) << "\n";
     else
@@ -334,7 +336,7 @@ void change_edit(const ChangeOptions& options, const Progress& progress) {
     const LogEntry entry = session.change_edit(
         options.edit, given, {.author = options.author, .note = options.note}, progress);
     if (options.anew) session.decide_anew({.author = options.author});
-    remark_warnings(entry, given);
+    remark_warnings(entry, given, options.project);
     const std::shared_ptr<const Snapshot> now = session.snapshot();
     const Rescaled rescaled = rescaled_by(options.edit, *before, *now);
     if (options.json) {

@@ -115,13 +115,13 @@ public:
         outcome.resolved = stroke_->resolved;
         outcome.warnings = stroke_->warnings;
         if (stroke_->empty > 0)
-            outcome.warnings.push_back(counted(stroke_->empty, "dab") +
-                                       " changed nothing: its strength is 0, its radius is smaller "
-                                       "than the triangles, or it is on a cap");
+            outcome.warnings.push_back(
+                {.code = "dabs-without-effect",
+                 .figures = {{"dabs", static_cast<double>(stroke_->empty)}}});
         BrushStroke ended = stroke_->brush;
         if (settings_.kind != BrushKind::Weight)
-            warn_of_crossings(ended.keep_walls_apart(progress), "brush",
-                              "undo and brush with less strength", outcome);
+            warn_of_crossings(ended.keep_walls_apart(progress), "brush-crosses-walls",
+                              {{.arguments = {{"strength", ""}}}}, outcome);
         outcome.scene = scene_with(ended.surface());
         ordered_json report = {{"dabs", stroke_->dabs}};
         const Surface &before = surface_of(before_), &after = surface_of(outcome.scene);
@@ -138,7 +138,7 @@ private:
     struct Stroke {
         BrushStroke brush;
         Arguments resolved;
-        std::vector<std::string> warnings = {};
+        std::vector<Diagnostic> warnings = {};
         std::size_t dabs = 0;
         std::size_t empty = 0;  ///< dabs that changed no vertex
     };

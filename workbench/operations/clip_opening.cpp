@@ -21,9 +21,9 @@ using nlohmann::ordered_json;
 void add_flow_warnings(const Arguments& arguments, const Clipping& made,
                        const ordered_json& openings, Outcome& outcome) {
     const bool own_choice = !arguments.has("tip") && !arguments.has("inlet");
-    for (const std::string& text :
-         {tilt_warning(openings), own_choice ? further_inlets(made.surface) : std::string()})
-        if (!text.empty()) outcome.warnings.push_back(text);
+    for (const auto& warning :
+         {tilt_warning(openings), own_choice ? further_inlets(made.surface) : std::nullopt})
+        if (warning) outcome.warnings.push_back(*warning);
 }
 
 /// Replays do not depend on the numbers of ends.

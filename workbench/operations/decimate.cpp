@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "geometry/kernel/diagnostic_text.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/reference_comparison.h"
@@ -96,44 +97,54 @@ void add_gain(Json& report, const Gain& gain) {
     report["unweighted"].update(parts_json(gain.unweighted));
 }
 
-/// Why fewer triangles are not possible.
-std::string what_stops(const DecimateReport& figures) {
-    const std::string others = "fold the surface over, or lose a part of it";
-    if (figures.vertices_locked == 0) return others;
-    return "make walls cross that almost touch (" +
-           counted(figures.vertices_locked, "vertex", "vertices") + " kept there), " + others;
+/// A warning whose reason is another diagnostic.
+Diagnostic because(const char* code, const Diagnostic& reason) {
+    Diagnostic warning = reason;
+    warning.words["why"] = text_of(reason);
+    warning.code = code;
+    return warning;
 }
 
 /// How the weights explain a result with as many triangles as before.
-std::string why_nothing_went(const ContextFigures& context, const Arguments& resolved) {
-    if (const std::string reason = why_all_is_kept(context, resolved); !reason.empty())
-        return reason;
-    return context.mean_weight
-               ? "no triangle with a weight above 0 can be removed at this max_error"
-               : "no edge can be collapsed at this max_error; a larger one permits more";
+Diagnostic why_nothing_went(const ContextFigures& context, const Arguments& resolved) {
+    if (auto reason = why_all_is_kept(context, resolved)) return *reason;
+    if (context.mean_weight) return {.code = "no-triangle-free"};
+    return {.code = "no-edge-collapses", .remedies = {{.arguments = {{"max_error", ""}}}}};
+}
+
+/// Of a target that could not be reached.
+Diagnostic too_many_left(const DecimateReport& figures, std::size_t wanted) {
+    Diagnostic warning{.code = "fewer-would-fold",
+                       .figures = {{"triangles", static_cast<double>(figures.triangles_after)},
+                                   {"wanted", static_cast<double>(wanted)}}};
+    if (figures.vertices_locked == 0) return warning;
+    warning.code = "fewer-would-cross";
+    warning.figures["locked"] = static_cast<double>(figures.vertices_locked);
+    return warning;
 }
 
 void warn(const DecimateReport& figures, const DecimateParameters& target,
           const ContextFigures& context, Outcome& outcome) {
-    const auto add = [&](const std::string& text) { outcome.warnings.push_back(text); };
+    const auto add = [&](Diagnostic warning) { outcome.warnings.push_back(std::move(warning)); };
     const bool idle = target.triangles && *target.triangles >= figures.triangles_before;
     const bool nothing_went = figures.triangles_after == figures.triangles_before;
     if (idle)
-        add("nothing to do: the surface has at most " + counted(*target.triangles, "triangle"));
+        add({.code = "nothing-to-decimate",
+             .figures = {{"triangles", static_cast<double>(*target.triangles)}}});
     else if (nothing_went && target.max_error)
-        add("all triangles are kept: " + why_nothing_went(context, outcome.resolved));
+        add(because("all-triangles-kept", why_nothing_went(context, outcome.resolved)));
     else if (context.staircase_vertices == 0)
-        add("there are no staircases: " + why_all_is_kept(context, outcome.resolved));
+        if (const auto reason = why_all_is_kept(context, outcome.resolved))
+            add(because("no-staircases", *reason));
     if (!figures.target_reached && !target.max_error)
-        add(counted(figures.triangles_after, "triangle") + " are left instead of " +
-            std::to_string(*target.triangles) + ": fewer would " + what_stops(figures));
+        add(too_many_left(figures, *target.triangles));
     if (figures.kept_vertices_lost > 0)
-        add(counted(figures.kept_vertices_lost, "vertex", "vertices") +
-            " of weight 0 were removed or moved, to avoid ruining the rest; keep more triangles");
+        add({.code = "kept-vertices-lost",
+             .figures = {{"vertices", static_cast<double>(figures.kept_vertices_lost)}}});
     if (figures.crossings_left > 0)
-        add("walls that almost touch near " + place_text(figures.crossing) + " cross in " +
-            counted(figures.crossings_left, "place") +
-            " now; keep more triangles, or separate the walls first");
+        add({.code = "decimation-crosses-walls",
+             .place = figures.crossing,
+             .figures = {{"crossings", static_cast<double>(figures.crossings_left)}}});
 }
 
 /// Warns if decimation without weights preserves the kept part better.
@@ -141,11 +152,8 @@ void warn_of_loss(const Gain& gain, Outcome& outcome) {
     const double with = gain.weighted.outside.mean, without = gain.unweighted.outside.mean;
     constexpr double kNoticeable = 1.05;
     if (with <= kNoticeable * without) return;
-    outcome.warnings.push_back("the weights gain nothing: the part they keep is " +
-                               formatted(with) + " mm off on average, and would be " +
-                               formatted(without) +
-                               " mm off without them, because the free part is too small to pay "
-                               "for it; keep more triangles, or decimate without weights");
+    outcome.warnings.push_back(
+        {.code = "weights-gain-nothing", .figures = {{"with_mm", with}, {"without_mm", without}}});
 }
 
 /// The operation's inputs from the scene, before figures are added.

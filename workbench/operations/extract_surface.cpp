@@ -101,9 +101,11 @@ void warn_of_all_labels(const Extraction& extraction, Outcome& outcome) {
     std::vector<int> labels = extraction.labels;
     std::erase(labels, 0);
     if (labels.size() < 2) return;
-    outcome.warnings.push_back("all labels were taken as one structure, " + labels_text(labels) +
-                               ": labels= takes some (with prepare: --set extract-surface.labels=" +
-                               std::to_string(labels[0]) + "," + std::to_string(labels[1]) + ")");
+    outcome.warnings.push_back(
+        {.code = "all-labels-taken",
+         .words = {{"labels", labels_text(labels)}},
+         .remedies = {{.arguments = {{"labels", std::to_string(labels[0]) + "," +
+                                                    std::to_string(labels[1])}}}}});
 }
 
 Report report_of(const Extraction& extraction) {
@@ -128,63 +130,64 @@ Report report_of(const Extraction& extraction) {
 /// A volume error, or a part of the wall, below it is no news.
 constexpr double kNoticeableError = 0.05;
 
-std::string percent(double share) {
-    return formatted(100.0 * share, "%.0f %%");
-}
-
 /// What is uncertain where vessels are thin.
-std::vector<std::string> thin_warnings(const Extraction& extraction) {
-    std::vector<std::string> warnings;
+std::vector<Diagnostic> thin_warnings(const Extraction& extraction) {
+    std::vector<Diagnostic> warnings;
     if (!extraction.why_no_levels.empty())
-        warnings.push_back("one threshold makes the surface, since " + extraction.why_no_levels +
-                           ": thin vessels may come out too thick or too thin");
+        warnings.push_back(
+            {.code = "one-threshold", .words = {{"reason", extraction.why_no_levels}}});
     if (!extraction.levels) return warnings;
     const WallLevels& levels = *extraction.levels;
     const Vec3& blur = levels.found.blur;
-    const std::string blurred = "the image's blur (" + formatted(blur.x(), "%.2g") + " x " +
-                                formatted(blur.y(), "%.2g") + " x " + formatted(blur.z(), "%.2g") +
-                                " mm)";
+    const std::string blurred = formatted(blur.x(), "%.2g") + " x " + formatted(blur.y(), "%.2g") +
+                                " x " + formatted(blur.z(), "%.2g");
     if (levels.volume_error > kNoticeableError)
-        warnings.push_back("the vessel's volume is uncertain by about " +
-                           percent(levels.volume_error) + ": beside " + blurred +
-                           " it is so thin that its core reaches " + percent(levels.core) +
-                           " of the contrast");
+        warnings.push_back({.code = "volume-uncertain",
+                            .figures = {{"volume_percent", 100.0 * levels.volume_error},
+                                        {"core_percent", 100.0 * levels.core}},
+                            .words = {{"blur", blurred}}});
     if (levels.undetermined > kNoticeableError)
-        warnings.push_back(percent(levels.undetermined) +
-                           " of the wall belongs to vessels no wider than " + blurred +
-                           ": their radius is not determined");
+        warnings.push_back({.code = "radius-undetermined",
+                            .figures = {{"wall_percent", 100.0 * levels.undetermined}},
+                            .words = {{"blur", blurred}}});
     return warnings;
 }
 
-std::vector<std::string> warnings_of(const Extraction& extraction) {
-    std::vector<std::string> warnings = thin_warnings(extraction);
+/// Of bodies that are not kept, though they are long or large.
+void add_dropped(const Extraction& extraction, std::vector<Diagnostic>& warnings) {
+    const auto bodies = static_cast<double>(extraction.bodies);
     const double kept = volume(extraction.surface);
+    const Remedy all{.arguments = {{"component", "all"}}};
     if (const auto& vessel = extraction.dropped_vessel)
-        warnings.push_back(
-            "of " + counted(extraction.bodies, "body", "bodies") + ", one dropped at " +
-            place_text(vessel->centre) + " is " + formatted(vessel->length) + " mm long and " +
-            formatted(vessel->diameter) +
-            " mm wide: a vessel that is broken off, perhaps; closing=1 bridges a gap of two "
-            "voxels, and component=all keeps all");
-    if (extraction.largest_dropped > kNoticeable * kept) {
-        std::ostringstream text;
-        text << "there are " << extraction.bodies << " bodies; the largest one dropped has "
-             << extraction.largest_dropped << " mm^3 (kept: " << kept
-             << "): choose another one with seed=, or keep all with component=all";
-        warnings.push_back(text.str());
-    }
-    if (extraction.before && !(*extraction.before == *extraction.after)) {
-        const auto text_of = [](const VoxelTopology& t) {
-            return counted(t.components, "piece") + ", " + counted(t.tunnels(), "tunnel") + ", " +
-                   counted(t.cavities, "cavity", "cavities");
-        };
-        warnings.push_back("cleaning changed the topology: " + text_of(*extraction.before) +
-                           " became " + text_of(*extraction.after));
-    }
-    if (extraction.surface.patches.size() > 1)
-        warnings.push_back("the vessel leaves the image in " +
-                           counted(extraction.surface.patches.size() - 1, "place") +
-                           "; it is closed by flat caps there (patches cut_1 ...)");
+        warnings.push_back({.code = "vessel-dropped",
+                            .place = vessel->centre,
+                            .figures = {{"bodies", bodies},
+                                        {"length_mm", vessel->length},
+                                        {"diameter_mm", vessel->diameter}},
+                            .remedies = {{.arguments = {{"closing", "1"}}}, all}});
+    if (extraction.largest_dropped > kNoticeable * kept)
+        warnings.push_back({.code = "body-dropped",
+                            .figures = {{"bodies", bodies},
+                                        {"dropped_mm3", extraction.largest_dropped},
+                                        {"kept_mm3", kept}},
+                            .remedies = {{.arguments = {{"seed", ""}}}, all}});
+}
+
+std::string text_of(const VoxelTopology& t) {
+    return counted(t.components, "piece") + ", " + counted(t.tunnels(), "tunnel") + ", " +
+           counted(t.cavities, "cavity", "cavities");
+}
+
+std::vector<Diagnostic> warnings_of(const Extraction& extraction) {
+    std::vector<Diagnostic> warnings = thin_warnings(extraction);
+    add_dropped(extraction, warnings);
+    if (extraction.before && !(*extraction.before == *extraction.after))
+        warnings.push_back({.code = "cleaning-changed-topology",
+                            .words = {{"before", text_of(*extraction.before)},
+                                      {"after", text_of(*extraction.after)}}});
+    if (const std::size_t patches = extraction.surface.patches.size(); patches > 1)
+        warnings.push_back({.code = "vessel-leaves-image",
+                            .figures = {{"places", static_cast<double>(patches - 1)}}});
     return warnings;
 }
 
@@ -193,8 +196,9 @@ bool warn_of_fractions(const Image& image, Outcome& outcome) {
     const auto fraction =
         std::ranges::find_if(*image.voxels, [](float v) { return v != std::floor(v); });
     if (fraction == image.voxels->end()) return false;
-    outcome.warnings.push_back("the image contains " + to_text(*fraction) +
-                               " and is not a label map: use method=threshold for intensities");
+    outcome.warnings.push_back({.code = "not-a-label-map",
+                                .words = {{"value", to_text(*fraction)}},
+                                .remedies = {{.arguments = {{"method", "threshold"}}}}});
     return true;
 }
 
@@ -217,7 +221,7 @@ public:
         const bool measured = extraction_.method == ExtractionMethod::Labels &&
                               warn_of_fractions(image_of(before_), outcome);
         warn_of_one_threshold(outcome, progress);
-        for (std::string& handle : handle_warnings(extraction_.surface, progress))
+        for (Diagnostic& handle : handle_warnings(extraction_.surface, progress))
             outcome.warnings.push_back(std::move(handle));
         if (!measured && !labels_given_) warn_of_all_labels(extraction_, outcome);
         return outcome;
@@ -229,12 +233,11 @@ private:
         if (extraction_.levels || !extraction_.why_no_levels.empty()) return;
         const auto error = extractor_.volume_error(parameters_, progress);
         if (!error || std::abs(*error) <= kNoticeableError) return;
-        outcome.warnings.push_back(
-            "at one threshold, " + to_text(extraction_.threshold) +
-            ", the vessel's volume is about " + percent(std::abs(*error)) +
-            (*error > 0.0 ? " larger" : " smaller") +
-            " than what its intensities add up to: threshold=local follows them (with prepare: "
-            "--set extract-surface.threshold=local)");
+        outcome.warnings.push_back({.code = "threshold-changes-volume",
+                                    .figures = {{"volume_percent", 100.0 * std::abs(*error)}},
+                                    .words = {{"threshold", to_text(extraction_.threshold)},
+                                              {"larger", *error > 0.0 ? "larger" : "smaller"}},
+                                    .remedies = {{.arguments = {{"threshold", "local"}}}}});
     }
 
     void use(const Arguments& arguments, Progress& progress) override {

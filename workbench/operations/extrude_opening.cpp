@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/wording.h"
@@ -40,8 +41,9 @@ std::vector<std::string> chosen_openings(const Surface& surface, const Arguments
                 names.push_back(patch.name);
     }
     if (names.empty())
-        throw AlgorithmFailure(
-            "extrude-opening: the surface has no openings; make them first (clip-opening)");
+        throw DiagnosedFailure({.code = "no-openings",
+                                .operation = "extrude-opening",
+                                .remedies = {{.operation = "clip-opening"}}});
     return names;
 }
 
@@ -56,43 +58,42 @@ constexpr double kNoticedShort = 0.95;
 
 /// The vessel's own direction at a cap; none, with a warning, if it cannot be used.
 std::optional<Vec3> vessel_direction(const Surface& surface, std::size_t patch,
-                                     std::vector<std::string>& warnings) {
+                                     std::vector<Diagnostic>& warnings) {
     constexpr double kMostTilt = 60.0;
     const auto axis = axis_at_patch(surface, patch);
     if (axis && axis->tilt_deg <= kMostTilt) return axis->direction;
-    warnings.push_back("the vessel's direction at '" + surface.patches[patch].name + "' " +
-                       (axis ? formatted(axis->tilt_deg, "is %.0f degrees from the cap's normal")
-                             : "cannot be measured") +
-                       ": it is extruded along the normal");
+    Diagnostic warning{.code = axis ? "cap-tilted" : "cap-without-axis",
+                       .place = patch_shape(surface, patch).plane.point,
+                       .words = {{"opening", surface.patches[patch].name}}};
+    if (axis) warning.figures["tilt_deg"] = axis->tilt_deg;
+    warnings.push_back(std::move(warning));
     return std::nullopt;
 }
 
 /// \param wanted length that the arguments ask for [mm]
-std::string short_text(const std::string& name, const Extrusion& made, double wanted) {
-    std::ostringstream text;
-    text << "the extrusion of '" << name << "' is " << made.length << " mm instead of " << wanted
-         << " mm long: "
-         << (made.shortened ? "another part of the surface is in the way"
-                            : "so it was chosen when it was made first");
-    return text.str();
+Diagnostic short_extrusion(const std::string& name, const Extrusion& made, double wanted) {
+    return {.code = made.shortened ? "extrusion-shortened" : "extrusion-as-before",
+            .figures = {{"length_mm", made.length}, {"wanted_mm", wanted}},
+            .words = {{"opening", name}}};
 }
 
-/// What is said of an opening with something right in front of it: nothing can be put there.
-std::string blocked_text(const Surface& surface, const std::string& name) {
-    return "the opening '" + name + "' at " +
-           place_text(patch_shape(surface, patch_named(surface, name)).plane.point) +
-           " cannot be extruded: another part of the surface is in its way; clip it elsewhere, or "
-           "leave it as it is";
+/// Of an opening with something right in front of it: nothing can be put there.
+/// \param code "opening-blocked", or of one that is left out "opening-not-extruded"
+Diagnostic blocked_opening(const char* code, const Surface& surface, const std::string& name) {
+    return {.code = code,
+            .operation = "extrude-opening",
+            .place = patch_shape(surface, patch_named(surface, name)).plane.point,
+            .words = {{"opening", name}}};
 }
 
 /// Of all openings, most can do without a few; one that was asked for cannot be left out.
 /// \throw AlgorithmFailure if it was, or none is left
 void tell_blocked(const Surface& surface, const std::vector<std::string>& blocked, bool required,
-                  std::vector<std::string>& warnings) {
+                  std::vector<Diagnostic>& warnings) {
     if (!blocked.empty() && required)
-        throw AlgorithmFailure(blocked_text(surface, blocked.front()));
+        throw DiagnosedFailure(blocked_opening("opening-blocked", surface, blocked.front()));
     for (const std::string& name : blocked)
-        warnings.push_back(blocked_text(surface, name) + "; it was left as it is");
+        warnings.push_back(blocked_opening("opening-not-extruded", surface, name));
 }
 
 Outcome extrude(const Scene& scene, const Arguments& arguments, Progress& progress) {
@@ -133,7 +134,7 @@ Outcome extrude(const Scene& scene, const Arguments& arguments, Progress& progre
             continue;
         }
         if (made.shortened || made.length < kNoticedShort * wanted)
-            outcome.warnings.push_back(short_text(names[i], made, wanted));
+            outcome.warnings.push_back(short_extrusion(names[i], made, wanted));
         surface = made.surface;
         lengths.push_back(made.length);
         list += (list.empty() ? "" : ",") + names[i];
@@ -145,10 +146,11 @@ Outcome extrude(const Scene& scene, const Arguments& arguments, Progress& progre
     tell_blocked(surface, blocked, arguments.has("opening") || lengths.empty(), outcome.warnings);
     if (!limited.empty())
         outcome.warnings.push_back(
-            joined(limited) + (limited.size() > 1 ? ": the extrusions are" : ": the extrusion is") +
-            formatted(arguments.real("diameters"), " shorter than %g diameters, ") +
-            formatted(arguments.real("share"), "limited to %g of the model's extent; ") +
-            "length= or share= makes them longer");
+            {.code = "extrusion-limited",
+             .figures = {{"diameters", arguments.real("diameters")},
+                         {"share", arguments.real("share")}},
+             .words = {{"openings", enumerated(limited)}},
+             .remedies = {{.arguments = {{"length", ""}}}, {.arguments = {{"share", ""}}}}});
     outcome.resolved.set("opening", list);
     outcome.resolved.set("lengths", lengths);
     outcome.report = std::make_shared<ordered_json>(ordered_json{{"openings", report}});

@@ -43,10 +43,11 @@ Image in_millimetres(const ImageFile& file, Outcome& outcome) {
     if (!file.unit && file.image.spacing().maxCoeff() < kTooSmallVoxel) {
         unit = "m";
         factor = millimetres_in(unit);
-        std::ostringstream text;
-        text << "the file states no unit and its voxels measure "
-             << file.image.spacing().transpose() << ": taken as metres; override with units=";
-        outcome.warnings.push_back(text.str());
+        std::ostringstream spacing;
+        spacing << file.image.spacing().transpose();
+        outcome.warnings.push_back({.code = "voxels-too-small",
+                                    .words = {{"spacing", spacing.str()}},
+                                    .remedies = {{.arguments = {{"units", ""}}}}});
     }
     outcome.resolved.set("units", unit);
     return scaled(file.image, factor);
@@ -68,7 +69,9 @@ Image usable_mask(const Image& mask, Outcome& outcome) {
         throw InvalidInput(
             "the mask holds neither labels nor a level set: give the value that bounds its inside "
             "with mask_iso=");
-    if (!wants_iso) outcome.warnings.push_back("mask: " + judgement.reason);
+    if (!wants_iso)
+        outcome.warnings.push_back(
+            {.code = "mask-not-labels", .words = {{"reason", judgement.reason}}});
     if (!resolved.has("mask_iso")) resolved.set("mask_iso", 0.0);
     if (!resolved.has("mask_inside"))
         resolved.set("mask_inside", std::string(judgement.inside_below ? "below" : "above"));
@@ -126,7 +129,8 @@ Outcome load_image(const Scene& scene, const Arguments& arguments, Progress& pro
     const auto [least, most] = std::minmax_element(image.voxels->begin(), image.voxels->end());
     if (*most <= *least)
         throw InvalidInput("the image is empty: all its voxels have the same value");
-    outcome.warnings.insert(outcome.warnings.end(), file.notes.begin(), file.notes.end());
+    for (const std::string& note : file.notes)
+        outcome.warnings.push_back({.code = "file-note", .words = {{"note", note}}});
     nlohmann::ordered_json report = report_of(file, image);
     outcome.scene = scene;
     outcome.scene.image = image;

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "geometry/kernel/diagnostic_text.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/centerlines/bends.h"
@@ -28,10 +29,11 @@ Json problems_json(const PrintCheck& check) {
     for (const SurfaceProblem& problem : check.problems) {
         Json places = Json::array();
         for (const Vec3& p : problem.places) places.push_back(point_json(p));
-        problems.push_back({{"cause", problem.cause},
+        const Diagnostic found = diagnostic_of(problem);
+        problems.push_back({{"code", found.code},
+                            {"text", text_of(found)},
                             {"count", problem.count},
-                            {"places_mm", places},
-                            {"remedy", problem.remedy}});
+                            {"places_mm", places}});
     }
     return problems;
 }
@@ -50,11 +52,14 @@ std::string headline_of(const PrintCheck& check, double thinnest, double closest
     return text;
 }
 
-void warn_if_below(const std::optional<FacingPlaces>& places, double limit, const std::string& what,
+/// \param code "thin-place" or "narrow-gap"
+void warn_if_below(const std::optional<FacingPlaces>& places, double limit, const char* code,
                    Outcome& outcome) {
     if (!places || places->distance >= limit) return;
-    outcome.warnings.push_back(what + " is " + formatted(places->distance) + " mm, below " +
-                               formatted(limit) + " mm, at " + place_text(places->from));
+    outcome.warnings.push_back(
+        {.code = code,
+         .place = places->from,
+         .figures = {{"distance_mm", places->distance}, {"limit_mm", limit}}});
 }
 
 /// The strongest bend of a vessel; none of a body without centerlines.
@@ -77,10 +82,9 @@ Json bend_json(const std::optional<Bend>& bend) {
 
 void warn_if_bent(const std::optional<Bend>& bend, double limit, Outcome& outcome) {
     if (!bend || bend->turn_deg <= limit) return;
-    outcome.warnings.push_back(
-        formatted(bend->turn_deg, "the vessel turns by %.0f degrees within two diameters at ") +
-        place_text(bend->place) + formatted(limit, ", above %.0f: a cast may break there") +
-        " when it is taken out of its mold; straighten the branch, or do not cast it");
+    outcome.warnings.push_back({.code = "cast-may-break",
+                                .place = bend->place,
+                                .figures = {{"turn_deg", bend->turn_deg}, {"limit_deg", limit}}});
 }
 
 Outcome run_print_check(const Scene& scene, const Arguments& arguments, Progress& progress) {
@@ -90,10 +94,10 @@ Outcome run_print_check(const Scene& scene, const Arguments& arguments, Progress
     outcome.scene = scene;
     outcome.resolved = arguments;
     for (const SurfaceProblem& problem : check.problems)
-        outcome.warnings.push_back(to_string(problem));
+        outcome.warnings.push_back(diagnostic_of(problem));
     const double thinnest = arguments.real("thinnest"), closest = arguments.real("closest");
-    warn_if_below(check.lumen, thinnest, "the thinnest place of the model", outcome);
-    warn_if_below(check.gap, closest, "the smallest gap between two branches", outcome);
+    warn_if_below(check.lumen, thinnest, "thin-place", outcome);
+    warn_if_below(check.gap, closest, "narrow-gap", outcome);
     warn_if_bent(bend, arguments.real("bend"), outcome);
     Json report = {{"headline", headline_of(check, thinnest, closest)},
                    {"printable", check.is_printable(thinnest, closest)},

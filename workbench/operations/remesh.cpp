@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/wording.h"
@@ -60,9 +61,7 @@ std::shared_ptr<const CenterlineGraph> centerlines(const Surface& surface, Outco
         reason = failure.what();
     }
     outcome.resolved.set("radius", std::string("rays"));
-    outcome.warnings.push_back(
-        "remesh measured the radius by rays across the lumen, because there are no centerlines: " +
-        reason);
+    outcome.warnings.push_back({.code = "radius-by-rays", .words = {{"reason", reason}}});
     return nullptr;
 }
 
@@ -77,13 +76,32 @@ void require_openings(const Surface& before, const Remeshed& after) {
         };
         if (before.patches[p].kind == PatchKind::Wall || !has(before) || has(after.surface))
             continue;
-        throw AlgorithmFailure(
-            formatted(after.report.edge, "edges of %.3g mm are too coarse for the opening ") +
-            before.patches[p].name +
-            formatted(patch_shape(before, p).diameter(), ", %.3g mm wide, which would be lost: ") +
-            formatted(patch_shape(before, p).diameter() / kEdgesAcross,
-                      "use min_edge=%.2g or less"));
+        const double diameter = patch_shape(before, p).diameter();
+        throw DiagnosedFailure(
+            {.code = "opening-lost",
+             .operation = "remesh",
+             .place = patch_shape(before, p).plane.point,
+             .figures = {{"edge_mm", after.report.edge}, {"diameter_mm", diameter}},
+             .words = {{"opening", before.patches[p].name}},
+             .remedies = {
+                 {.arguments = {{"min_edge", formatted(diameter / kEdgesAcross, "%.2g")}}}}});
     }
+}
+
+void add_warnings(const RemeshReport& figures, Outcome& outcome) {
+    const std::vector<Remedy> another_edge = {{.arguments = {{"edge", ""}}}};
+    if (figures.limited)
+        outcome.warnings.push_back({.code = "edges-limited",
+                                    .figures = {{"edge_mm", figures.edge}},
+                                    .remedies = another_edge});
+    if (figures.crossings_parted > 0)
+        outcome.warnings.push_back(
+            {.code = "crossings-parted", .place = figures.crossing, .remedies = another_edge});
+    if (std::abs(figures.volume_change) > kNoticedVolume)
+        outcome.warnings.push_back({.code = "edges-coarse",
+                                    .figures = {{"edge_mm", figures.edge},
+                                                {"volume_percent", 100.0 * figures.volume_change}},
+                                    .remedies = another_edge});
 }
 
 Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) {
@@ -110,20 +128,7 @@ Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) 
         outcome.resolved.set("max_edge", figures.max_edge);
     }
     outcome.report = report_from(figures, features);
-    if (figures.limited)
-        outcome.warnings.push_back(
-            formatted(figures.edge, "edges of %.3g mm, the finest that make no more than ") +
-            "1 million triangles; edge= makes them finer or coarser");
-    if (figures.crossings_parted > 0)
-        outcome.warnings.push_back("walls that almost touch near " + place_text(figures.crossing) +
-                                   " crossed after remeshing and were separated there: the wall "
-                                   "may have moved; separate the "
-                                   "walls or use a smaller edge if that part matters");
-    if (std::abs(figures.volume_change) > kNoticedVolume)
-        outcome.warnings.push_back(
-            formatted(figures.edge, "edges of %.3g mm are coarse for this vessel: ") +
-            formatted(100.0 * figures.volume_change, "the volume changed by %+.1f %%; ") +
-            "use a smaller edge");
+    add_warnings(figures, outcome);
     outcome.scene = with_surface(scene, std::move(remeshed.surface));
     return outcome;
 }

@@ -51,7 +51,7 @@ std::string headline_of(const RepairReport& report) {
     const auto add = [&](std::size_t count, const char* noun, const char* verb) {
         if (count > 0) parts.push_back(counted(count, noun) + " " + verb);
     };
-    add(report.turned_triangles, "triangle", "turned");
+    add(report.turned_triangles, "triangle", "flipped");
     add(report.removed_components, "stray part", "removed");
     add(report.self_intersections, "self-intersection", "removed");
     add(report.closed_holes, "hole", "closed");
@@ -81,51 +81,49 @@ ordered_json report_json(const RepairReport& report) {
             {"places", places_json(report.places)}};
 }
 
-void add_closed_ends(std::vector<ClosedHole> ends, std::vector<std::string>& warnings) {
+void add_closed_ends(std::vector<ClosedHole> ends, std::vector<Diagnostic>& warnings) {
     std::ranges::stable_sort(ends, std::greater{}, &ClosedHole::radius);
     for (std::size_t i = 0; i < ends.size(); ++i) {
-        if (i == kMostNamed) {
-            warnings.push_back("repair closed " + counted(ends.size() - i, "smaller hole") +
-                               " that may be ends of vessels: see the report");
-            return;
-        }
+        if (i == kMostNamed)
+            return warnings.push_back(
+                {.code = "more-holes-closed",
+                 .figures = {{"holes", static_cast<double>(ends.size() - i)}}});
         const ClosedHole& end = ends[i];
-        const std::string what = end.in_wall ? "in the wall of a vessel " +
-                                                   formatted(2.0 * end.lumen_radius) +
-                                                   " mm wide, where a branch may have been torn off"
-                                             : "as wide as the vessel behind it";
-        warnings.push_back("repair closed a hole at " + place_text(end.centre) + ", " +
-                           formatted(2.0 * end.radius) + " mm wide, " + what +
-                           "; close_holes_up_to=" + formatted(0.9 * end.radius) +
-                           " leaves it open");
+        warnings.push_back(
+            {.code = end.in_wall ? "hole-in-wall-closed" : "vessel-end-closed",
+             .place = end.centre,
+             .figures = {{"width_mm", 2.0 * end.radius}, {"lumen_mm", 2.0 * end.lumen_radius}},
+             .remedies = {{.arguments = {{"close_holes_up_to", formatted(0.9 * end.radius)}}}}});
     }
 }
 
-std::vector<std::string> warnings_of(const RepairReport& report, const Surface& before,
-                                     bool given_radius) {
-    std::vector<std::string> warnings;
-    if (report.removed_outer_wall)
-        warnings.push_back(
-            "the surface has the outer and the inner side of a vessel's wall: repair removed the "
-            "outer one, since blood flows inside the inner one; to use the outer one, load it from "
-            "a file of its own");
+/// What was removed of a surface; none: nothing that matters.
+std::optional<Diagnostic> removal_warning(const RepairReport& report, const Surface& before) {
+    const auto pieces = static_cast<double>(report.removed_components);
+    const auto triangles = static_cast<double>(report.removed_component_triangles);
     if (const auto& vessel = report.removed_vessel)
-        warnings.push_back(
-            "repair removed " + counted(report.removed_components, "unconnected piece") +
-            ", the longest of which, at " + place_text(vessel->centre) + ", is " +
-            formatted(vessel->length) + " mm long and " + formatted(vessel->diameter) +
-            " mm wide: a vessel; keep_components=" + std::to_string(report.keeping_it) +
-            " keeps it");
-    else if (!report.removed_outer_wall &&
-             static_cast<double>(report.removed_component_triangles) >
-                 kWorthAWarning * static_cast<double>(before.triangle_count()))
-        warnings.push_back("repair removed " +
-                           counted(report.removed_components, "unconnected piece") + " with " +
-                           counted(report.removed_component_triangles, "triangle") +
-                           "; keep more of them with keep_components=");
+        return Diagnostic{
+            .code = "vessel-removed",
+            .place = vessel->centre,
+            .figures = {{"pieces", pieces},
+                        {"length_mm", vessel->length},
+                        {"diameter_mm", vessel->diameter}},
+            .remedies = {{.arguments = {{"keep_components", std::to_string(report.keeping_it)}}}}};
+    if (report.removed_outer_wall ||
+        triangles <= kWorthAWarning * static_cast<double>(before.triangle_count()))
+        return std::nullopt;
+    return Diagnostic{.code = "pieces-removed",
+                      .figures = {{"pieces", pieces}, {"triangles", triangles}},
+                      .remedies = {{.arguments = {{"keep_components", ""}}}}};
+}
+
+std::vector<Diagnostic> warnings_of(const RepairReport& report, const Surface& before,
+                                    bool given_radius) {
+    std::vector<Diagnostic> warnings;
+    if (report.removed_outer_wall) warnings.push_back({.code = "outer-wall-removed"});
+    if (auto removal = removal_warning(report, before)) warnings.push_back(std::move(*removal));
     if (!given_radius) add_closed_ends(report.closed_ends, warnings);
-    if (report.turned_inside_out)
-        warnings.push_back("the surface was inside out; its orientation was reversed");
+    if (report.turned_inside_out) warnings.push_back({.code = "orientation-reversed"});
     return warnings;
 }
 
@@ -159,7 +157,7 @@ Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) 
         add_caps(report, repaired.surface.patches.size() - before);
     }
     if (!scene.image)  // of an image, extract-surface has named them
-        for (std::string& handle : handle_warnings(repaired.surface, progress))
+        for (Diagnostic& handle : handle_warnings(repaired.surface, progress))
             outcome.warnings.push_back(std::move(handle));
     outcome.report = std::make_shared<ordered_json>(std::move(report));
     outcome.scene = with_surface(scene, std::move(repaired.surface));

@@ -1,8 +1,8 @@
 #include <algorithm>
-#include <sstream>
 
 #include <nlohmann/json.hpp>
 
+#include "geometry/kernel/diagnostic_text.h"
 #include "geometry/kernel/freed_memory.h"
 #include "geometry/kernel/unsmoothed.h"
 #include "geometry/kernel/wording.h"
@@ -44,56 +44,55 @@ bool any_moved(const Positions& before, const Positions& after) {
 
 constexpr double kNextToNothing = 0.02;  // mean weight below which a run hardly has an effect
 
-/// The weights that hold a run back nearly everywhere; empty if none do.
-std::string what_holds_back(const ContextFigures& figures) {
-    if (!figures.mean_weight || *figures.mean_weight >= kNextToNothing) return "";
-    std::ostringstream text;
-    text << "the weights leave almost nothing to smooth (mean " << Json(*figures.mean_weight)
-         << "):";
-    const auto add = [&](const char* kind, const std::optional<double>& weight) {
-        if (weight) text << " " << kind << " " << Json(*weight);
+/// The weights that hold a run back nearly everywhere; none if none do.
+std::optional<Diagnostic> what_holds_back(const ContextFigures& figures) {
+    if (!figures.mean_weight || *figures.mean_weight >= kNextToNothing) return std::nullopt;
+    Diagnostic warning{.code = "weights-hold-back", .figures = {{"weight", *figures.mean_weight}}};
+    const auto add = [&](const char* name, const std::optional<double>& weight) {
+        if (weight) warning.figures[name] = *weight;
     };
-    add("staircase", figures.mean_weight_staircase);
-    add("distance", figures.mean_weight_distance);
-    add("painted", figures.mean_weight_painted);
-    return text.str();
+    add("staircase_weight", figures.mean_weight_staircase);
+    add("distance_weight", figures.mean_weight_distance);
+    add("painted_weight", figures.mean_weight_painted);
+    return warning;
 }
 
 /// Share of vertices on staircases below which a surface shows none [-].
 constexpr double kHardlyAny = 0.001;
 
-/// What becomes of a smoothing aware of staircases on a surface that shows none; empty if it does.
-std::string without_staircases(const ContextFigures& figures, const Arguments& resolved,
-                               std::size_t vertices) {
+/// What becomes of a smoothing aware of staircases on a surface that shows none; none if it does.
+std::optional<Diagnostic> without_staircases(const ContextFigures& figures,
+                                             const Arguments& resolved, std::size_t vertices) {
     const auto found = figures.staircase_vertices;
-    if (!found || static_cast<double>(*found) >= kHardlyAny * static_cast<double>(vertices))
-        return "";
-    std::ostringstream text;
-    text << (*found == 0 ? "no" : "hardly any") << " staircases: " << *found << " of "
-         << counted(vertices, "vertex", "vertices") << " bend across the slices by more than "
-         << "tau_theta = " << to_text(resolved.real("tau_theta"))
-         << ", so the surface gets beta_min = " << to_text(resolved.real("beta_min"))
-         << " of the smoothing; a smaller tau_theta finds gentler staircases, staircase=false "
-            "smooths in full";
-    return text.str();
+    const auto all = static_cast<double>(vertices);
+    if (!found || static_cast<double>(*found) >= kHardlyAny * all) return std::nullopt;
+    return Diagnostic{
+        .code = "hardly-any-staircases",
+        .figures = {{"found", static_cast<double>(*found)},
+                    {"vertices", all},
+                    {"tau_theta", resolved.real("tau_theta")},
+                    {"beta_min", resolved.real("beta_min")}},
+        .remedies = {{.arguments = {{"tau_theta", ""}}}, {.arguments = {{"staircase", "false"}}}}};
+}
+
+/// Why nothing moved.
+Diagnostic nothing_moved(const ContextFigures& figures, const Arguments& resolved) {
+    Diagnostic reason = why_all_is_kept(figures, resolved).value_or(Diagnostic{.code = "all-kept"});
+    if (resolved.flag("staircase") && figures.staircase_vertices == 0)
+        reason.remedies.push_back({.arguments = {{"beta_min", ""}}});
+    reason.words["why"] = text_of(reason);
+    reason.code = "nothing-moved";
+    return reason;
 }
 
 /// Why a filter that should have moved something moved nothing or almost nothing, or moved
-/// everything alike although it looked for staircases; else empty.
-std::string why_little_moved(const ContextFigures& figures, const Arguments& resolved,
-                             std::size_t vertices, bool moved) {
-    const bool idle = resolved.integer("iterations") == 0 || resolved.real("lambda") == 0.0;
-    if (idle) return "";
-    if (moved) {
-        const std::string text = without_staircases(figures, resolved, vertices);
-        return text.empty() ? what_holds_back(figures) : text;
-    }
-    if (const std::string reason = why_all_is_kept(figures, resolved); !reason.empty()) {
-        const bool no_staircase = resolved.flag("staircase") && figures.staircase_vertices == 0;
-        return "nothing moved: " + reason +
-               (no_staircase ? "; use beta_min to let the rest move" : "");
-    }
-    return "nothing moved: every vertex is kept or has weight 0";
+/// everything alike although it looked for staircases.
+std::optional<Diagnostic> why_little_moved(const ContextFigures& figures, const Arguments& resolved,
+                                           std::size_t vertices, bool moved) {
+    if (resolved.integer("iterations") == 0 || resolved.real("lambda") == 0.0) return std::nullopt;
+    if (!moved) return nothing_moved(figures, resolved);
+    auto found = without_staircases(figures, resolved, vertices);
+    return found ? found : what_holds_back(figures);
 }
 
 class LiveSmoothing final : public ReplacingStepper {
@@ -117,11 +116,10 @@ public:
             report["smallest_neighbour_distance_after_mm"] =
                 smallest_neighbour_distance(before_, outcome.resolved, "smooth", after.points());
         LocalError error = add_changes(report, before, after);
-        if (const std::string reason =
+        if (auto reason =
                 why_little_moved(figures_.weights, outcome.resolved, before.vertex_count(),
-                                 any_moved(before.points(), after.points()));
-            !reason.empty())
-            outcome.warnings.push_back(reason);
+                                 any_moved(before.points(), after.points())))
+            outcome.warnings.push_back(std::move(*reason));
         if (outcome.resolved.flag("keep_weights"))
             outcome.scene = with_surface(
                 outcome.scene,
@@ -139,18 +137,19 @@ private:
         Outcome bare;
         bare.resolved = arguments;
         resolve_filter(before_, bare.resolved);
-        if (const auto warning = filter_warning(filter_from(bare.resolved)); !warning.empty())
-            bare.warnings.push_back(warning);
+        if (auto warning = filter_warning(filter_from(bare.resolved)))
+            bare.warnings.push_back(std::move(*warning));
         auto [moved, resolved, figures, reason, device] =
             filter_.run(bare.resolved, progress.part(0.0, 0.8));
         bare.device = std::move(device);
         bare.resolved = std::move(resolved);
         if (!reason.empty())
-            bare.warnings.push_back("device=gpu: fell back to the CPU, because " + reason);
+            bare.warnings.push_back({.code = "gpu-not-used", .words = {{"reason", reason}}});
         release_freed_memory();
         // No filter may make the surface pass through itself.
-        warn_of_crossings(take_back_crossings(surface, moved, progress.part(0.8, 1.0)), "filter",
-                          "use fewer iterations, or repair", bare);
+        warn_of_crossings(take_back_crossings(surface, moved, progress.part(0.8, 1.0)),
+                          "filter-crosses-walls",
+                          {{.arguments = {{"iterations", ""}}}, {.operation = "repair"}}, bare);
         bare.scene = with_surface(before_, surface.with_positions(std::move(moved)));
         bare_ = std::move(bare);
         figures_ = std::move(figures);
@@ -214,7 +213,8 @@ Operation smooth_operation() {
             .stays_here = &asks_for_gpu,
             .suggested = &suggested_arguments,
             .thesis = "3.3.4, 5",
-            .recipe = {.volume_remedy = "fewer iterations, or filter=taubin, keep it"},
+            .recipe = {.volume_remedies = {{.arguments = {{"iterations", ""}}},
+                                           {.arguments = {{"filter", "taubin"}}}}},
             .search = {.smoothing = &smoothing_subject,
                        .filter_parameter = "filter",
                        .hint = "staircase=true keeps its thresholds, beta_min and alpha"},

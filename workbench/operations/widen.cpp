@@ -2,8 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/kernel/errors.h"
-#include "geometry/kernel/wording.h"
+#include "geometry/kernel/diagnosed_error.h"
 #include "smoothing/filters/new_crossings.h"
 #include "workbench/case/point_json.h"
 #include "workbench/operations/shared/crossing_warning.h"
@@ -21,23 +20,26 @@ constexpr double kLeft = 0.9;    ///< of the width: what is below it afterwards,
 /// Half a voxel: what is narrower, the image hardly shows.
 double width_from_sampling(const Scene& scene) {
     if (!scene.sampling)
-        throw AlgorithmFailure(
-            "widen: the surface's image is unknown, and so is what is too narrow: give width= "
-            "[mm]");
+        throw DiagnosedFailure({.code = "width-unknown",
+                                .operation = "widen",
+                                .remedies = {{.arguments = {{"width", ""}}}}});
     return kVoxels * scene.sampling->spacing.minCoeff();
 }
 
-std::string widened_text(const std::vector<NarrowPlace>& places, double width) {
-    return "the lumen was narrower than " + formatted(width) + " mm at " +
-           counted(places.size(), "place") + " and was widened, at " +
-           place_text(places.front().place) + " from " + formatted(places.front().width) +
-           " mm: check whether vessels are joined there at all";
+Diagnostic widened(const std::vector<NarrowPlace>& places, double width) {
+    return {.code = "lumen-widened",
+            .place = places.front().place,
+            .figures = {{"limit_mm", width},
+                        {"places", static_cast<double>(places.size())},
+                        {"width_mm", places.front().width}}};
 }
 
-std::string left_text(const std::vector<NarrowPlace>& places) {
-    return "the lumen is still narrow at " + counted(places.size(), "place") + ", at " +
-           place_text(places.front().place) + " " + formatted(places.front().width) +
-           " mm: inflate it by hand (brush-inflate), or cut it off";
+Diagnostic still_narrow(const std::vector<NarrowPlace>& places) {
+    return {.code = "still-narrow",
+            .place = places.front().place,
+            .figures = {{"places", static_cast<double>(places.size())},
+                        {"width_mm", places.front().width}},
+            .remedies = {{.operation = "brush-inflate"}}};
 }
 
 Json places_json(const std::vector<NarrowPlace>& places) {
@@ -59,13 +61,13 @@ Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) 
     outcome.scene = scene;
     if (!found.empty()) {
         Positions moved = widen(surface, width, progress.part(0.1, 0.7));
-        warn_of_crossings(take_back_crossings(surface, moved, progress.part(0.7, 0.9)), "widening",
-                          "separate the walls, or repair", outcome);
+        warn_of_crossings(take_back_crossings(surface, moved, progress.part(0.7, 0.9)),
+                          "widening-crosses-walls", {{.operation = "repair"}}, outcome);
         Surface after = surface.with_positions(std::move(moved));
         left = narrow_places(after, kLeft * width, progress);
         outcome.scene = with_surface(scene, std::move(after));
-        outcome.warnings.push_back(widened_text(found, width));
-        if (!left.empty()) outcome.warnings.push_back(left_text(left));
+        outcome.warnings.push_back(widened(found, width));
+        if (!left.empty()) outcome.warnings.push_back(still_narrow(left));
     }
     outcome.report = std::make_shared<Json>(
         Json{{"places", places_json(found)}, {"still_narrow", places_json(left)}});

@@ -11,8 +11,8 @@ namespace vesselbench {
 /// \param variant of the edits of steps 4-8
 /// \return warnings in addition to those of the edits
 /// \throw what an edit throws; UnusableSource. The session keeps the edits that were done
-std::vector<std::string> apply_recipe(Session& session, const Recipe& recipe,
-                                      const std::string& variant, const Teller& tell,
-                                      const Progress& progress);
+std::vector<Diagnostic> apply_recipe(Session& session, const Recipe& recipe,
+                                     const std::string& variant, const Teller& tell,
+                                     const Progress& progress);
 
 }  // namespace vesselbench

@@ -127,13 +127,14 @@ void require_ends_opened(const std::vector<LogEntry>& edits, const BeforeOpening
                            (cutter ? without_end(cutter->entry, cutter->tip) : ""));
 }
 
-/// What is missing of vessels that carry little of the flow; empty: nothing.
-std::string lost_text(const std::vector<LostVessel>& lost) {
-    if (lost.empty()) return "";
-    return "the model misses " + counted(lost.size(), "thin vessel") + " of at most " +
-           formatted(lost.front().diameter) + " mm, the widest at " +
-           place_text(lost.front().place) + ", with " +
-           formatted(100.0 * lost.front().share, "%.3g %% of the flow");
+/// What is missing of vessels that carry little of the flow; none: nothing.
+std::optional<Diagnostic> lost_warning(const std::vector<LostVessel>& lost) {
+    if (lost.empty()) return std::nullopt;
+    return Diagnostic{.code = "thin-vessels-missing",
+                      .place = lost.front().place,
+                      .figures = {{"vessels", static_cast<double>(lost.size())},
+                                  {"diameter_mm", lost.front().diameter},
+                                  {"flow_percent", 100.0 * lost.front().share}}};
 }
 
 /// \throw AlgorithmFailure that lists the vessels and names the edit that lost them
@@ -174,8 +175,8 @@ std::optional<BeforeOpenings> before_openings(Session& session, const std::strin
 VesselCheck compared_vessels(const BeforeOpenings& before, const Surface& after,
                              const Progress& progress) {
     const auto without_lines = [](const std::exception& failure) {
-        return VesselCheck{.warning = std::string("lost vessels could not be looked for: ") +
-                                      failure.what()};
+        return VesselCheck{.warning = Diagnostic{.code = "vessels-not-compared",
+                                                 .words = {{"reason", failure.what()}}}};
     };
     try {
         VesselCheck check{.lines = vessel_lines(before.surface, progress)};
@@ -201,13 +202,13 @@ void ModelChecks::check_whole(const LogEntry& edit, const std::optional<BeforeOp
                               const Progress& progress) {
     if (edit.result->id == whole_) return;
     const EditId id = edit.edit.edit.id;
-    warning_.clear();
+    warning_.reset();
     if (before) {
         const VesselCheck check =
             compared_vessels(*before, surface_of(session_.scene_after(id)), progress);
         if (std::ranges::any_of(check.lost, &LostVessel::matters))
             refuse_lost(session_, edits_from_first_cut(session_, variant_, id), *before, check);
-        warning_ = check.warning.empty() ? lost_text(check.lost) : check.warning;
+        warning_ = check.warning ? check.warning : lost_warning(check.lost);
     }
     whole_ = edit.result->id;
 }

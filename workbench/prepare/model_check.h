@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/kernel/diagnostic.h"
 #include "geometry/kernel/progress.h"
 #include "geometry/vessel/openings/lost_vessels.h"
 #include "workbench/session/session.h"
@@ -28,7 +29,7 @@ struct BeforeOpenings {
 struct VesselCheck {
     CenterlineGraph lines;  ///< of the vessels before; a fray's threads are not missed
     std::vector<LostVessel> lost;
-    std::string warning;  ///< why they could not be looked for
+    std::optional<Diagnostic> warning = std::nullopt;  ///< why they could not be looked for
 };
 
 [[nodiscard]] VesselCheck compared_vessels(const BeforeOpenings& before, const Surface& after,
@@ -52,8 +53,9 @@ public:
     /// \throw AlgorithmFailure as after()
     void surface_final(const Progress& progress);
 
-    /// Of the last check of the vessels; empty if they could be compared.
-    [[nodiscard]] const std::string& warning() const { return warning_; }
+    /// Of the last check of the vessels: why they could not be compared, or what is missing of
+    /// thin ones.
+    [[nodiscard]] const std::optional<Diagnostic>& warning() const { return warning_; }
 
 private:
     void check_cut(const LogEntry& edit, const std::optional<BeforeOpenings>& before);
@@ -62,7 +64,7 @@ private:
 
     Session& session_;
     std::string variant_;
-    std::string warning_;
+    std::optional<Diagnostic> warning_;
     ResultId cut_ = 0;    ///< whose openings are checked
     ResultId whole_ = 0;  ///< whose vessels are
 };

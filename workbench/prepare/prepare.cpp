@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/kernel/diagnostic.h"
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/pending_files.h"
 #include "geometry/kernel/printable.h"
 #include "geometry/kernel/whole_file.h"
@@ -126,7 +126,7 @@ InputOptions named_input(const PrepareOptions& options) {
 /// What a resumed preparation does first, unless edits of the recipe follow.
 /// \param log of the purpose
 void tell_rest(const ResumedRecipe& resumed, const std::vector<LogEntry>& log, const Teller& tell) {
-    for (const std::string& remark : resumed.remarks) tell("warning: " + remark);
+    for (const std::string& remark : resumed.remarks) tell.warn(plain_text(remark));
     if (!resumed.rest.empty()) return;
     const auto pending =
         static_cast<std::size_t>(std::ranges::count(log, EditStatus::Pending, &LogEntry::status));
@@ -147,7 +147,7 @@ Recipe rest_in(Session& session, const Recipe& recipe, const PrepareOptions& opt
     const std::vector<LogEntry> log = session.log(options.purpose);
     refuse_late_settings(options.arguments, here.rest, log);
     tell_rest(here, log, tell);
-    prepared.warnings = here.remarks;
+    for (const std::string& remark : here.remarks) prepared.warnings.push_back(plain_text(remark));
     return here.rest;
 }
 
@@ -164,9 +164,10 @@ void tell_flow(const PrepareOptions& options, const FlowSettings& flow, const Te
 /// Applies what is left of the recipe and runs pending edits, in the order of the case. A model
 /// that has lost vessels, or an opening in a vessel's side, is an error as early as it can be seen,
 /// and so is an edit that no longer applies.
-/// \return a warning; empty if there is none
-std::string make_model(Session& session, const Recipe& recipe, const PrepareOptions& options,
-                       const Teller& tell, const Progress& progress) {
+/// \return a warning of the checks
+std::optional<Diagnostic> make_model(Session& session, const Recipe& recipe,
+                                     const PrepareOptions& options, const Teller& tell,
+                                     const Progress& progress) {
     ModelChecks checks(session, options.purpose);
     const Progress quiet = progress.silent();
     const RecipeWatch watch{
@@ -186,15 +187,15 @@ std::string make_model(Session& session, const Recipe& recipe, const PrepareOpti
     run_recipe(session, recipe, options.purpose, tell, progress.part(0.0, until), watch);
     run_pending(session, options.purpose, Step::Review, tell, progress.part(until, 0.99), watch);
     checks.surface_final(quiet);
-    if (!checks.warning().empty()) tell("warning: " + checks.warning());
+    if (checks.warning()) tell.warn(*checks.warning());
     return checks.warning();
 }
 
 /// Earlier results of another purpose are not of this model.
 void tell_remaining(const std::vector<std::string>& names, const Teller& tell) {
     if (!names.empty())
-        tell("warning: " + enumerated(names) + " in this folder " +
-             (names.size() == 1 ? "is" : "are") + " of an earlier preparation, not of this model");
+        tell.warn({.code = names.size() == 1 ? "earlier-result" : "earlier-results",
+                   .words = {{"files", enumerated(names)}}});
 }
 
 void write_products(PendingFiles& files, const PrepareOptions& options, PreparedCase& prepared,
@@ -253,11 +254,11 @@ void fold_log(const Session& session) {
 /// Makes what is missing of the model, and writes the results.
 PrepareSummary finished(Session& session, const Recipe& rest, const PrepareOptions& options,
                         PreparedCase prepared, const Teller& tell, const Progress& progress) {
-    const std::string warning =
+    const std::optional<Diagnostic> warning =
         make_model(session, rest, options, tell, progress.part(0.0, kEditsShare));
-    for (std::string& kept : kept_warnings(options.out / kProject, session, options.purpose))
+    for (Diagnostic& kept : kept_warnings(options.out / kProject, session, options.purpose))
         prepared.warnings.push_back(std::move(kept));
-    if (!warning.empty()) prepared.warnings.push_back(warning);
+    if (warning) prepared.warnings.push_back(*warning);
     prepared.scene = session.scene(options.purpose);
     refuse_stale_edits(session.log(options.purpose));
     end_purpose(options.out / kProject, options.purpose);
@@ -301,10 +302,15 @@ PrepareSummary prepare(const PrepareOptions& options, const Teller& tell,
         keep_name(project, input);
         begin_purpose(project, options.purpose);
         if (!flow.stored().empty()) store_text(project, StoredText::Flow, flow.stored());
-        const Teller noting = [&](const std::string& text) {
-            any_edit = true;
-            tell(text);
-        };
+        const Teller noting(
+            [&](const std::string& text) {
+                any_edit = true;
+                tell(text);
+            },
+            [&](const Diagnostic& warning) {
+                any_edit = true;
+                tell.warn(warning);
+            });
         return finished(session, recipe, options, std::move(prepared), noting,
                         progress.part(0.02, 1.0));
     } catch (const UnusableSource&) {

@@ -13,7 +13,7 @@ namespace vesselbench {
 
 struct PrepareSummary {
     std::vector<std::string> products;  ///< names of the files and folders written
-    std::vector<std::string> warnings;  ///< all, as in report.json
+    std::vector<Diagnostic> warnings;   ///< all, as in report.json
 };
 
 /// Turns the input into a CFD or print model: a project with one edit per entry of the recipe,

@@ -10,6 +10,8 @@
 #include "geometry/kernel/triangle_shape.h"
 #include "geometry/vessel/openings/openings.h"
 #include "workbench/case/argument_texts.h"
+#include "workbench/case/diagnostic_json.h"
+#include "workbench/case/diagnostic_words.h"
 #include "workbench/case/json_text.h"
 #include "workbench/case/measure_json.h"
 #include "workbench/case/point_json.h"
@@ -129,8 +131,8 @@ Json neighbours_json(const Scene& scene) {
 }
 
 /// \return warnings
-std::vector<std::string> add_flow(Json& report, const PreparedCase& prepared,
-                                  const std::vector<LogEntry>& edits) {
+std::vector<Diagnostic> add_flow(Json& report, const PreparedCase& prepared,
+                                 const std::vector<LogEntry>& edits) {
     report["volume_mesh"] = volume_mesh_json(edits);
     const FlowSummary summary =
         flow_summary(*prepared.scene.surface, prepared.flow, inlet_bend(report["openings"]));
@@ -171,7 +173,7 @@ void add_pictures(PreparedReport& report, const Surface& surface,
     try {
         report.pictures = report_pictures(surface, source);
     } catch (const GpuUnavailable& error) {
-        report.warnings.push_back(std::string("the report has no pictures: ") + error.what());
+        report.warnings.push_back({.code = "no-pictures", .words = {{"reason", error.what()}}});
     }
 }
 
@@ -197,7 +199,7 @@ void add_steps(PreparedReport& report, const std::vector<LogEntry>& edits, const
     for (const LogEntry& entry : edits) {
         report.document["steps"].push_back(step_json(entry, input));
         if (!entry.result) continue;
-        for (std::string& warning : warnings_of(entry))
+        for (Diagnostic& warning : warnings_of(entry))
             report.warnings.push_back(std::move(warning));
         if (part_of(entry).cuts_ends) add_ends(report.document, *entry.result);
         if (const auto& section = part_of(entry).report_section)
@@ -241,7 +243,7 @@ PreparedReport prepare_report(Session& session, const PreparedCase& prepared,
         report["distance_to_exact"] = distances_json(compared, *prepared.input.exact);
     if (!prepared.scene.neighbours.empty()) report["neighbours"] = neighbours_json(prepared.scene);
     if (find_purpose(prepared.purpose).simulates_flow)
-        for (const std::string& warning : add_flow(report, prepared, edits))
+        for (const Diagnostic& warning : add_flow(report, prepared, edits))
             made.warnings.push_back(warning);
     progress.report(0.5, "drawing");
     std::optional<PictureSource> compared_with;
@@ -249,7 +251,9 @@ PreparedReport prepare_report(Session& session, const PreparedCase& prepared,
         compared_with.emplace(
             PictureSource{*source.surface, comparable, closed_ends(made.document)});
     add_pictures(made, surface, compared_with);
-    report["warnings"] = made.warnings;
+    for (const Diagnostic& warning : made.warnings)
+        report["warnings"].push_back(worded_with_operation(warning));
+    report["diagnostics"] = diagnostics_json(made.warnings);
     report["products"] = prepared.products;
     report["earlier_results"] = prepared.earlier_results;
     report = printable_json(std::move(report));

@@ -20,14 +20,14 @@ struct PreparedCase {
     CfdParameters flow;
     std::vector<std::string> products;         ///< names of the files and folders written
     std::vector<std::string> earlier_results;  ///< names of those in the same folder
-    std::vector<std::string> warnings;         ///< beside those of the edits
+    std::vector<Diagnostic> warnings;          ///< beside those of the edits
 };
 
 struct PreparedReport {
     nlohmann::ordered_json document;  ///< report.json
     std::vector<ReportPicture> pictures;
     std::vector<ReportSection> sections;  ///< those of the edits, in order
-    std::vector<std::string> warnings;    ///< all, as in the document
+    std::vector<Diagnostic> warnings;     ///< all, as in the document
 };
 
 /// Measures before and after, distances to the source and to the exact surface away from the

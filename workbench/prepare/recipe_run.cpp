@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/openings/vessel_check.h"
+#include "workbench/case/diagnostic_words.h"
 #include "workbench/operations/table.h"
 #include "workbench/report/log_json.h"
 #include "workbench/session/surface_change.h"
@@ -31,14 +33,15 @@ constexpr double kLargestLoss = 0.25;
 /// \throw AlgorithmFailure if an operation that keeps the volume took much of it; the edit is
 /// undone
 void require_volume(Session& session, const LogEntry& entry) {
-    if (find_operation(entry.edit.operation).recipe.volume_remedy.empty() || !entry.result) return;
+    if (find_operation(entry.edit.operation).recipe.volume_remedies.empty() || !entry.result)
+        return;
     const auto change = volume_change(entry.result->change);
     if (!change || *change >= -kLargestLoss) return;
     session.undo();
-    throw AlgorithmFailure(
-        entry.edit.operation + " would take " + formatted(-100.0 * *change, "%.0f") +
-        " % of the volume: the triangles are too coarse for the vessel; make them finer with "
-        "subdivide");
+    throw DiagnosedFailure({.code = "volume-lost",
+                            .operation = entry.edit.operation,
+                            .figures = {{"volume_percent", -100.0 * *change}},
+                            .remedies = {{.operation = "subdivide"}}});
 }
 
 /// \throw UnusableSource if there is nothing that a model could be made of
@@ -50,14 +53,15 @@ void require_vessel(Session& session, const LogEntry& entry) {
     }
 }
 
-/// A change of the volume where there should be none; else empty.
-std::string volume_warning(const LogEntry& entry) {
-    const std::string& remedy = find_operation(entry.edit.operation).recipe.volume_remedy;
-    if (remedy.empty() || !entry.result) return "";
+/// A change of the volume where there should be none.
+std::optional<Diagnostic> volume_warning(const LogEntry& entry) {
+    const auto& remedies = find_operation(entry.edit.operation).recipe.volume_remedies;
+    if (remedies.empty() || !entry.result) return std::nullopt;
     const auto change = volume_change(entry.result->change);
-    if (!change || std::abs(*change) <= kNoticedChange) return "";
-    return entry.edit.operation + " changed the volume by " + formatted(100.0 * *change, "%.1f") +
-           " %: " + remedy;
+    if (!change || std::abs(*change) <= kNoticedChange) return std::nullopt;
+    return Diagnostic{.code = "volume-changed",
+                      .figures = {{"volume_percent", 100.0 * *change}},
+                      .remedies = remedies};
 }
 
 /// True for an edit of a variant's line, up to a step.
@@ -69,6 +73,14 @@ bool is_of(const EditPlace& place, const std::string& variant, Step last) {
 std::string reason_of(const std::exception& error, const Operation& operation) {
     const std::string text = error.what(), name = operation.name + ": ";
     return text.starts_with(name) ? text.substr(name.size()) : text;
+}
+
+/// An error as one of another class, which decides the exit code.
+template <class Error>
+[[noreturn]] void throw_as(const std::exception& error) {
+    if (const auto* diagnosed = dynamic_cast<const Diagnosed*>(&error))
+        throw DiagnosedError<Error>(diagnosed->diagnostics());
+    throw Error(error.what());
 }
 
 /// Applies entries and runs pending edits, and lets others know.
@@ -105,7 +117,7 @@ public:
 
 private:
     void tell_warnings(const LogEntry& entry) const {
-        for (const std::string& warning : warnings_of(entry)) tell_("warning: " + warning);
+        for (const Diagnostic& warning : warnings_of(entry)) tell_.warn(warning);
     }
 
     /// \return none: it was skipped
@@ -122,15 +134,18 @@ private:
         } catch (const InvalidInput& error) {
             // The loaded data was accepted: from here on, the operation is to blame.
             if (operation.usual_step == Step::Source) throw;
-            throw AlgorithmFailure(error.what());
+            throw_as<AlgorithmFailure>(error);
         } catch (const AlgorithmFailure& error) {
             if (operation.recipe.proves_source) throw UnusableSource(error.what());
             const std::string why = reason_of(error, operation);
             if (entry.otherwise) return made_otherwise(entry, why, progress);
             if (!entry.optional) throw;
-            const std::string text = operation.name + " was skipped: " + why;
-            tell_("warning: " + text);
-            note({operation.name, step_of(entry), {}, text, own_variant(entry)});
+            warn({.operation = operation.name,
+                  .step = step_of(entry),
+                  .diagnostic = {.code = "step-skipped",
+                                 .operation = operation.name,
+                                 .words = {{"why", why}}},
+                  .variant = own_variant(entry)});
             return std::nullopt;
         }
     }
@@ -140,21 +155,29 @@ private:
         RecipeEntry second = entry;
         second.otherwise.reset();
         second.given.set(*entry.otherwise);
-        std::string changed;
-        for (const auto& [name, value] : (*entry.otherwise)->values())
-            changed += (changed.empty() ? "" : " ") + name + "=" + to_text(value);
         const std::string& name = entry.given.operation().name;
-        const std::string text = name + " with " + changed + " instead: " + why;
-        tell_("warning: " + text);
+        std::string changed;
+        for (const auto& [argument, value] : (*entry.otherwise)->values())
+            changed += (changed.empty() ? "" : " ") + argument + "=" + to_text(value);
+        Diagnostic warning{.code = "made-otherwise",
+                           .operation = name,
+                           .words = {{"arguments", changed}, {"why", why}}};
+        tell_.warn(warning);
         std::optional<LogEntry> done = made(second, progress);
-        note({name, step_of(entry), done ? std::optional(done->edit.edit) : std::nullopt, text,
-              own_variant(entry)});
+        if (done) warning.edit = done->edit.edit.id;
+        note({name, step_of(entry), done ? std::optional(done->edit.edit) : std::nullopt,
+              std::move(warning), own_variant(entry)});
         return done;
     }
 
     [[nodiscard]] std::string own_variant(const RecipeEntry& entry) const {
         const auto now = session_.snapshot();
         return step_of(entry) < now->history->first_variant_step() ? "" : variant_;
+    }
+
+    void warn(const RecipeWarning& warning) const {
+        tell_.warn(warning.diagnostic);
+        note(warning);
     }
 
     void note(const RecipeWarning& warning) const {
@@ -191,19 +214,28 @@ bool is_left_out(Session& session, const RecipeEntry& entry, const std::string& 
 
 }  // namespace
 
+void Teller::warn(const Diagnostic& warning) const {
+    if (warnings_)
+        warnings_(warning);
+    else
+        lines_("warning: " + worded_with_operation(warning));
+}
+
 bool is_replaced(const RecipeEntry& entry, const std::vector<LogEntry>& log) {
     return entry.unless_made && std::ranges::any_of(log, [&](const LogEntry& edit) {
                return was_made(edit, *entry.unless_made);
            });
 }
 
-std::vector<std::string> warnings_of(const LogEntry& entry) {
-    std::vector<std::string> warnings;
+std::vector<Diagnostic> warnings_of(const LogEntry& entry) {
+    std::vector<Diagnostic> warnings;
     if (!entry.result) return warnings;
-    for (const std::string& warning : entry.result->warnings)
-        warnings.push_back(entry.edit.operation + ": " + warning);
-    if (const std::string warning = volume_warning(entry); !warning.empty())
-        warnings.push_back(warning);
+    warnings = entry.result->warnings;
+    if (auto warning = volume_warning(entry)) warnings.push_back(std::move(*warning));
+    for (Diagnostic& warning : warnings) {
+        warning.operation = entry.edit.operation;
+        warning.edit = entry.edit.edit.id;
+    }
     return warnings;
 }
 

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <concepts>
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "geometry/kernel/diagnostic.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/progress.h"
 #include "workbench/prepare/recipe.h"
@@ -12,8 +15,27 @@
 
 namespace vesselbench {
 
-/// Receives messages about a recipe's edits, one line of text at a time.
-using Teller = std::function<void(const std::string&)>;
+/// Receives messages about a recipe's edits: lines of text, and warnings as values.
+class Teller {
+public:
+    using Lines = std::function<void(const std::string&)>;
+    using Warnings = std::function<void(const Diagnostic&)>;
+
+    /// \param warnings empty: they are lines, too, with "warning: " before them
+    template <class Tell>
+
+    requires std::constructible_from<Lines, Tell> Teller(
+        Tell lines, Warnings warnings = {})  // a function that takes lines is enough
+        : lines_(std::move(lines)), warnings_(std::move(warnings)) {}
+
+    void operator()(const std::string& text) const { lines_(text); }
+
+    void warn(const Diagnostic& warning) const;
+
+private:
+    Lines lines_;
+    Warnings warnings_;
+};
 
 /// The loaded surface cannot be repaired: the input is bad, not the recipe.
 class UnusableSource : public InvalidInput {
@@ -23,10 +45,10 @@ public:
 
 /// Something that a recipe could not do as it says.
 struct RecipeWarning {
-    std::string operation;
+    std::string operation;  ///< of the entry
     Step step = Step::Source;
     std::optional<EditRef> edit;  ///< what was made instead; none: the entry was skipped
-    std::string text;
+    Diagnostic diagnostic;
     std::string variant;  ///< that the entry's edit belongs to; empty: the trunk
 };
 
@@ -39,7 +61,7 @@ struct RecipeWatch {
 
 /// What a user should know of an edit: its own warnings, and a change of the volume where there
 /// should be none.
-[[nodiscard]] std::vector<std::string> warnings_of(const LogEntry& entry);
+[[nodiscard]] std::vector<Diagnostic> warnings_of(const LogEntry& entry);
 
 /// True for an entry that is skipped because of an edit that was made (RecipeEntry::unless_made).
 [[nodiscard]] bool is_replaced(const RecipeEntry& entry, const std::vector<LogEntry>& log);

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "workbench/case/diagnostic_json.h"
 #include "workbench/case/json_fields.h"
 #include "workbench/case/json_text.h"
 #include "workbench/session/stored_texts.h"
@@ -51,6 +52,12 @@ bool holds(const Json& warning, const std::vector<LogEntry>& log, const std::str
     return std::ranges::any_of(log, [&](const LogEntry& entry) { return entry.edit.edit == ref; });
 }
 
+/// Old projects have its text only.
+Diagnostic diagnostic_in(const Json& warning) {
+    const char* key = warning.contains("diagnostic") ? "diagnostic" : "text";
+    return diagnostic_from(warning.value(key, Json()), kName);
+}
+
 }  // namespace
 
 void keep_warning(const std::filesystem::path& project, const RecipeWarning& warning) {
@@ -60,7 +67,7 @@ void keep_warning(const std::filesystem::path& project, const RecipeWarning& war
         added["edit"] = warning.edit->id;
         added["revision"] = warning.edit->revision;
     }
-    added["text"] = warning.text;
+    added["diagnostic"] = diagnostic_json(warning.diagnostic);
     Json list = Json::array();
     for (Json& earlier : stored_list(project))
         if (!same_entry(earlier, added)) list.push_back(std::move(earlier));
@@ -68,15 +75,13 @@ void keep_warning(const std::filesystem::path& project, const RecipeWarning& war
     store_text(project, StoredText::Warnings, text_from_json(list));
 }
 
-std::vector<std::string> kept_warnings(const std::filesystem::path& project, const Session& session,
-                                       const std::string& variant) {
-    std::vector<std::string> texts;
+std::vector<Diagnostic> kept_warnings(const std::filesystem::path& project, const Session& session,
+                                      const std::string& variant) {
+    std::vector<Diagnostic> warnings;
     const std::vector<LogEntry> log = session.log(variant);
-    for (const Json& warning : stored_list(project)) {
-        if (holds(warning, log, variant))
-            texts.push_back(json_value<std::string>(warning.value("text", Json()), kName));
-    }
-    return texts;
+    for (const Json& warning : stored_list(project))
+        if (holds(warning, log, variant)) warnings.push_back(diagnostic_in(warning));
+    return warnings;
 }
 
 }  // namespace vesselbench

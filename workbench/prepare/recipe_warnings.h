@@ -18,8 +18,8 @@ void keep_warning(const std::filesystem::path& project, const RecipeWarning& war
 /// skipped was not made since.
 /// \param session that has the project open
 /// \throw IoError, InvalidInput if they cannot be read
-[[nodiscard]] std::vector<std::string> kept_warnings(const std::filesystem::path& project,
-                                                     const Session& session,
-                                                     const std::string& variant);
+[[nodiscard]] std::vector<Diagnostic> kept_warnings(const std::filesystem::path& project,
+                                                    const Session& session,
+                                                    const std::string& variant);
 
 }  // namespace vesselbench

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "geometry/kernel/diagnosed_error.h"
 #include "workbench/case/diagnostic_json.h"
 #include "workbench/case/version.h"
 
@@ -30,14 +31,9 @@ Json resume_command(const PrepareOptions& options) {
     return command;
 }
 
-/// True for an edit of one end by hand, after which the recipe goes on.
-bool is_by_hand(const Remedy& remedy) {
-    return remedy.arguments.contains("tip");
-}
-
 Json commands_of(const PrepareOptions& options, const Remedy& remedy) {
     Json resume = resume_command(options), commands = Json::array();
-    if (is_by_hand(remedy)) {
+    if (remedy.before) {
         Json apply = {"vesselbench", "apply", (options.out / "project.vbench").string(),
                       remedy.operation};
         for (const auto& [name, value] : remedy.arguments) apply.push_back(name + "=" + value);

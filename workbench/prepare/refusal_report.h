@@ -5,6 +5,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/diagnostic.h"
 #include "workbench/prepare/prepare_options.h"
 

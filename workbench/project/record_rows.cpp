@@ -7,6 +7,7 @@
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/plain_name.h"
+#include "workbench/case/diagnostic_json.h"
 #include "workbench/case/json_fields.h"
 #include "workbench/case/json_text.h"
 #include "workbench/case/measure_json.h"
@@ -29,7 +30,7 @@ Json stored_change(const SurfaceChange& change) {
 
 Bytes packed_details(const ResultRecord& result) {
     return pack_text(text_from_json(Json({{"resolved", stored_text(result.resolved)},
-                                          {"warnings", result.warnings},
+                                          {"warnings", diagnostics_json(result.warnings)},
                                           {"change", stored_change(result.change)},
                                           {"report", result.report}})));
 }
@@ -58,7 +59,9 @@ void unpack_details(std::span<const std::byte> blob, ResultRecord& result, TextB
     const Json json = json_from_text(budget.unpack(blob), "a result", kLargestStoredJson);
     JsonFields fields(json, "a result");
     result.resolved = arguments_from_stored(fields.required<std::string>("resolved"));
-    result.warnings = fields.required<std::vector<std::string>>("warnings");
+    const Json* warnings = fields.child("warnings");
+    result.warnings =
+        diagnostics_from(warnings == nullptr ? Json() : *warnings, fields.place_of("warnings"));
     const Json* change = fields.child("change");
     result.change = change_from(change == nullptr ? Json() : *change);
     result.report = fields.required<std::string>("report");

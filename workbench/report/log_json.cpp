@@ -6,6 +6,8 @@
 
 #include "geometry/kernel/wording.h"
 #include "workbench/case/arguments_json.h"
+#include "workbench/case/diagnostic_json.h"
+#include "workbench/case/diagnostic_words.h"
 #include "workbench/case/measure_json.h"
 #include "workbench/session/surface_change.h"
 
@@ -29,7 +31,8 @@ std::string no_volume_reason(const SurfaceChange& change) {
 void add_result(Json& json, const ResultRecord& result) {
     json["resolved"] = to_json(result.resolved);
     json["duration_s"] = result.duration;
-    json["warnings"] = result.warnings;
+    json["warnings"] = worded(result.warnings);
+    json["diagnostics"] = diagnostics_json(result.warnings);
     json["change"] = change_json(result.change);
     if (const std::string why = no_volume_reason(result.change); !why.empty())
         json["change"]["no_volume_change"] = why;

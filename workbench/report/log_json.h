@@ -7,7 +7,7 @@
 namespace vesselbench {
 
 /// One edit with all its data in the project: operation, arguments given and resolved, author,
-/// time, duration, note, warnings, and what it changed.
+/// time, duration, note, warnings (their texts, and as diagnostics), and what it changed.
 [[nodiscard]] nlohmann::ordered_json log_json(const LogEntry& entry);
 
 /// One line: "volume -2.1 %, moved up to 0.31 mm, 12,400 -> 9,800 triangles"; empty if nothing

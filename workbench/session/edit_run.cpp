@@ -37,6 +37,8 @@ EditRun edit_run(const Operation& operation, Scene input, Outcome outcome, doubl
     ResultRecord& record = run.record;
     record.resolved = without_folders(operation, outcome.resolved);
     record.warnings = std::move(outcome.warnings);
+    for (Diagnostic& warning : record.warnings)
+        if (warning.operation.empty()) warning.operation = operation.name;
     if (outcome.report) record.report = stored_text(*outcome.report);
     record.change = surface_change(input, outcome.scene, progress);
     record.duration = duration;

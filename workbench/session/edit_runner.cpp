@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "geometry/kernel/diagnostic_text.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/stopwatch.h"
 #include "geometry/kernel/wording.h"
@@ -37,36 +38,38 @@ bool differ_much(double a, double b, double little) {
     return std::max(std::abs(a), std::abs(b)) > 2.0 * small && std::abs(a - b) > little;
 }
 
-/// How two amounts of a change are told apart in a warning.
-struct DifferenceText {
-    const char* now;
+/// A warning about an amount of a change that differs.
+struct DifferenceWarning {
+    const char* code;
+    const char* now;  ///< names of its figures
     const char* before;
-    double unit = 1.0;    ///< of the texts, in that of the amounts
+    double unit = 1.0;    ///< of the figures, in that of the amounts
     double little = 0.0;  ///< a difference that is not worth a word
 };
 
-constexpr DifferenceText kVolumeText{"it changes the volume by %+.2f %%, ",
-                                     "by %+.2f %% before an earlier edit was changed: ", 100.0,
-                                     0.002};
-constexpr DifferenceText kWayText{"it changes the surface by up to %.3f mm, ",
-                                  "by up to %.3f mm before an earlier edit was changed: ", 1.0,
-                                  0.1};
+constexpr DifferenceWarning kVolume{"effect-on-volume-differs", "now_percent", "before_percent",
+                                    100.0, 0.002};
+constexpr DifferenceWarning kSurface{"effect-on-surface-differs", "now_mm", "before_mm", 1.0, 0.1};
 
-/// Empty unless one is known to differ much from the other.
-std::string difference_text(const std::optional<double>& now, const std::optional<double>& before,
-                            const DifferenceText& text) {
-    if (!now || !before || !differ_much(*now, *before, text.little)) return "";
-    return formatted(text.unit * *now, text.now) + formatted(text.unit * *before, text.before) +
-           "check that it still does what it was made for";
+/// None unless one is known to differ much from the other.
+std::optional<Diagnostic> difference(const std::optional<double>& now,
+                                     const std::optional<double>& before,
+                                     const DifferenceWarning& warning) {
+    if (!now || !before || !differ_much(*now, *before, warning.little)) return std::nullopt;
+    return Diagnostic{
+        .code = warning.code,
+        .figures = {{warning.now, warning.unit * *now}, {warning.before, warning.unit * *before}}};
 }
 
 /// An edit that ran on other input may no longer do what it was made for, unnoticed.
-void note_difference(ResultRecord& record, const SurfaceChange& before) {
+void note_difference(ResultRecord& record, const Operation& operation,
+                     const SurfaceChange& before) {
     const SurfaceChange& now = record.change;
-    std::string text = difference_text(volume_change(now), volume_change(before), kVolumeText);
-    if (text.empty())
-        text = difference_text(now.largest_deviation, before.largest_deviation, kWayText);
-    if (!text.empty()) record.warnings.push_back(std::move(text));
+    auto found = difference(volume_change(now), volume_change(before), kVolume);
+    if (!found) found = difference(now.largest_deviation, before.largest_deviation, kSurface);
+    if (!found) return;
+    found->operation = operation.name;
+    record.warnings.push_back(std::move(*found));
 }
 
 /// The result with which a revision made its choices; empty if none of its runs succeeded.
@@ -86,8 +89,9 @@ bool chose_places(const Operation& operation, const Arguments& given, const Argu
     });
 }
 
-/// A text without its figures.
-std::string words_of(std::string text) {
+/// A diagnostic's text without its figures.
+std::string words_of(const Diagnostic& diagnostic) {
+    std::string text = text_of(diagnostic);
     std::erase_if(text, [](char c) {
         return std::string_view("0123456789.+-").find(c) != std::string_view::npos;
     });
@@ -97,8 +101,8 @@ std::string words_of(std::string text) {
 /// An edit that is given the places it chose before does not look for others: what it found, and
 /// warned of, when it chose is kept with them.
 void keep_findings(ResultRecord& record, const ResultRecord& chosen) {
-    std::vector<std::string> warnings;
-    for (const std::string& warning : chosen.warnings)
+    std::vector<Diagnostic> warnings;
+    for (const Diagnostic& warning : chosen.warnings)
         if (std::ranges::count(record.warnings, words_of(warning), words_of) == 0)
             warnings.push_back(warning);
     record.warnings.insert(record.warnings.begin(), warnings.begin(), warnings.end());
@@ -141,7 +145,7 @@ EditRun EditRunner::run_pending(EditRef ref, Scene input, const Progress& progre
         const auto first = first_result(store_->history(), ref);
         if (first && chose_places(operation, edit.given, record->resolved))
             keep_findings(done.record, *store_->record(*first));
-        if (record->stale_reason.empty()) note_difference(done.record, record->change);
+        if (record->stale_reason.empty()) note_difference(done.record, operation, record->change);
         return done;
     } catch (const AlgorithmFailure& error) {
         return stale_run(std::move(input), error.what());

@@ -23,8 +23,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
+#include "workbench/case/diagnostic_json.h"
 #include "workbench/case/json_fields.h"
 #include "workbench/case/json_text.h"
 #include "workbench/project/serialization.h"
@@ -165,10 +167,15 @@ Bytes outcome_bytes(const Outcome& outcome, const std::vector<ScenePart>& known)
     writer.put(Ending::Done);
     writer.put_text(outcome.report ? stored_text(*outcome.report) : "");
     writer.put_text(stored_text(outcome.resolved));
-    writer.put_text(stored_text(Json(outcome.warnings)));
+    writer.put_text(stored_text(diagnostics_json(outcome.warnings)));
     writer.put_text(outcome.device);
     writer.append(encode_scene(outcome.scene, known));
     return writer.take();
+}
+
+std::vector<Diagnostic> read_diagnostics(ByteReader& reader) {
+    constexpr const char* kName = "the diagnostics";
+    return diagnostics_from(json_from_text(reader.get_text(), kName, kLargestStoredJson), kName);
 }
 
 Outcome read_outcome(ByteReader& reader, const std::vector<ScenePart>& known,
@@ -179,8 +186,7 @@ Outcome read_outcome(ByteReader& reader, const std::vector<ScenePart>& known,
         outcome.report =
             std::make_shared<const Json>(json_from_text(report, "a report", kLargestStoredJson));
     outcome.resolved = arguments_from_stored(reader.get_text());
-    outcome.warnings = json_value<std::vector<std::string>>(
-        json_from_text(reader.get_text(), "the warnings", kLargestStoredJson), "the warnings");
+    outcome.warnings = read_diagnostics(reader);
     outcome.device = reader.get_text();
     outcome.scene = decode_scene(reader.get_bytes(reader.left()), known, progress);
     return outcome;
@@ -272,12 +278,20 @@ bool follow(int descriptor, const Progress& progress, Clock::time_point deadline
                            "; the project is unchanged. Try other parameters, or repair first");
 }
 
-[[noreturn]] void throw_ending(Ending ending, const std::string& text) {
+/// Of the classes that may have diagnostics. \param diagnostics empty: it has none
+template <class Error>
+[[noreturn]] void throw_error(const std::string& text, std::vector<Diagnostic> diagnostics) {
+    if (diagnostics.empty()) throw Error(text);
+    throw DiagnosedError<Error>(std::move(diagnostics));
+}
+
+[[noreturn]] void throw_ending(Ending ending, const std::string& text,
+                               std::vector<Diagnostic> diagnostics) {
     switch (ending) {
         case Ending::Usage:
-            throw UsageError(text);
+            throw_error<UsageError>(text, std::move(diagnostics));
         case Ending::Input:
-            throw InvalidInput(text);
+            throw_error<InvalidInput>(text, std::move(diagnostics));
         case Ending::Io:
             throw IoError(text);
         case Ending::Gpu:
@@ -285,7 +299,7 @@ bool follow(int descriptor, const Progress& progress, Clock::time_point deadline
         case Ending::Cancel:
             throw Cancelled();
         default:
-            throw AlgorithmFailure(text);
+            throw_error<AlgorithmFailure>(text, std::move(diagnostics));
     }
 }
 
@@ -319,31 +333,33 @@ std::string memory_text(const WorkerOptions& options, const Operation& operation
 /// The worker's report of an error thrown by the operation.
 template <class Run>
 Bytes outcome_or_error(Run run) {
-    const auto error = [](Ending ending, const char* text) {
+    const auto error = [](Ending ending, const std::exception& failure) {
         ByteWriter writer;
         writer.put(ending);
-        writer.put_text(text);
+        writer.put_text(failure.what());
+        const auto* diagnosed = dynamic_cast<const Diagnosed*>(&failure);
+        writer.put_text(stored_text(diagnostics_json(
+            diagnosed == nullptr ? std::vector<Diagnostic>() : diagnosed->diagnostics())));
         return writer.take();
     };
     try {
         return run();
     } catch (const UsageError& e) {
-        return error(Ending::Usage, e.what());
+        return error(Ending::Usage, e);
     } catch (const InvalidInput& e) {
-        return error(Ending::Input, e.what());
+        return error(Ending::Input, e);
     } catch (const IoError& e) {
-        return error(Ending::Io, e.what());
+        return error(Ending::Io, e);
     } catch (const GpuUnavailable& e) {
-        return error(Ending::Gpu, e.what());
+        return error(Ending::Gpu, e);
     } catch (const Cancelled& e) {
-        return error(Ending::Cancel, e.what());
-    } catch (const std::bad_alloc&) {
-        return error(Ending::Memory, "");
+        return error(Ending::Cancel, e);
+    } catch (const std::bad_alloc& e) {
+        return error(Ending::Memory, e);
     } catch (const AlgorithmFailure& e) {
-        return error(Ending::Algorithm, e.what());
+        return error(Ending::Algorithm, e);
     } catch (const std::exception& e) {
-        return error(Ending::Broken,
-                     e.what());  // from a library: it names neither place nor remedy
+        return error(Ending::Broken, e);  // from a library: it names neither place nor remedy
     }
 }
 
@@ -453,7 +469,10 @@ Outcome run_in_worker(const Operation& operation, const Scene& scene,
             "needs more memory than its limit of " + memory_text(options, operation, arguments));
     if (ending == Ending::Broken)
         throw_broken(operation, arguments, "failed (" + reader.get_text() + ")");
-    if (ending != Ending::Done) throw_ending(ending, reader.get_text());
+    if (ending != Ending::Done) {
+        const std::string text = reader.get_text();
+        throw_ending(ending, text, read_diagnostics(reader));
+    }
     return read_outcome(reader, take_apart(scene).parts, progress);
 }
 

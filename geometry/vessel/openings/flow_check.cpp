@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "geometry/kernel/diagnostic.h"
+#include "geometry/kernel/diagnosed_error.h"
+#include "geometry/kernel/diagnostic_text.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/ends/stub_lines.h"
 #include "geometry/vessel/ends/surface_ends.h"
@@ -40,7 +42,8 @@ std::string ends_text(const OpeningPlan& plan) {
 
 /// Why a plan is none for a flow, and the ends that something has to be done about.
 struct FlowProblem {
-    std::string text;
+    std::string code;  ///< of the diagnostics; empty: there is no problem
+    std::map<std::string, std::string> words;
     std::vector<EndRecord> ends;  ///< the largest share first
     bool doubts = false;          ///< nothing is wrong if the likelier choice is right
 };
@@ -82,7 +85,11 @@ std::string numbered(const EndRecord& end) {
            formatted(100.0 * end.share(), "%.3g %% of the flow");
 }
 
-/// Empty text: there is none.
+std::string doubt_text(const EndRecord& end) {
+    return numbered(end) + ", is " + (has_opening(end) ? "an opening" : "none") + " (" +
+           formatted(100.0 * end.verdict->odds.opening, "%.0f %% likely)");
+}
+
 FlowProblem flow_problem(const OpeningPlan& plan, bool accept_doubts) {
     FlowProblem problem;
     const auto collect = [&](const auto& test) {
@@ -93,8 +100,8 @@ FlowProblem flow_problem(const OpeningPlan& plan, bool accept_doubts) {
     };
     if (plan.openings.size() < 2) {
         collect([](const EndRecord& end) { return !has_opening(end) && !end.asked; });
-        problem.text = "a flow needs two openings, and there " +
-                       std::string(plan.openings.empty() ? "is none" : "is one only");
+        problem.code = "too-few-openings";
+        problem.words["found"] = plan.openings.empty() ? "none" : "only one";
         return problem;
     }
     collect([&](const EndRecord& end) {
@@ -102,20 +109,18 @@ FlowProblem flow_problem(const OpeningPlan& plan, bool accept_doubts) {
     });
     if (!problem.ends.empty()) {
         const EndRecord& end = problem.ends.front();
-        problem.text = numbered(end) + ", is " + to_string(end.fate) + " (" + end.why +
-                       "): its flow would be missing";
+        problem.code = "flow-missing";
+        problem.words = {{"end", numbered(end)}, {"fate", to_string(end.fate)}, {"why", end.why}};
         return problem;
     }
     if (accept_doubts) return problem;
     collect([&](const EndRecord& end) { return is_doubtful(plan, end); });
     if (problem.ends.empty()) return problem;
     problem.doubts = true;
-    problem.text = "it is not certain that ";
-    for (std::size_t i = 0; i < problem.ends.size(); ++i) {
-        const EndRecord& end = problem.ends[i];
-        problem.text += (i == 0 ? "" : ", and that ") + numbered(end) + ", is " +
-                        (has_opening(end) ? "an opening" : "none") + " (" +
-                        formatted(100.0 * end.verdict->odds.opening, "%.0f %% likely)");
+    problem.code = "end-in-doubt";
+    for (const EndRecord& end : problem.ends) {
+        std::string& all = problem.words["doubts"];
+        all += (all.empty() ? "" : ", and that ") + doubt_text(end);
     }
     return problem;
 }
@@ -131,22 +136,12 @@ struct Advice {
     std::string argument, value, effect;  ///< of clip-opening; empty: there is none
     std::string distance = {};            ///< with the argument tip
 
-    [[nodiscard]] std::string text() const {
-        if (argument.empty())
-            return "\nnone of these ends can be opened: clip-opening check=none makes a model that "
-                   "is not for flow (with prepare: --for rp)";
-        const std::string given = argument + "=" + value;
-        if (!distance.empty())
-            return "\nvesselbench apply project.vbench clip-opening " + given +
-                   " distance=" + distance + " " + effect + " (then, with prepare: --resume)";
-        return "\nclip-opening " + given + " " + effect +
-               " (with prepare: --resume --set clip-opening." + given + ")";
-    }
-
     [[nodiscard]] std::vector<Remedy> remedies() const {
         if (argument.empty()) return {};
         Remedy remedy{.operation = "clip-opening", .arguments = {{argument, value}}};
-        if (!distance.empty()) remedy.arguments["distance"] = distance;
+        if (distance.empty()) return {remedy};
+        remedy.arguments["distance"] = distance;
+        remedy.before = true;
         return {remedy};
     }
 };
@@ -156,22 +151,30 @@ Advice closing(const Positions& closed) {
             closed.size() == 1 ? "leaves it closed on purpose" : "leaves them closed on purpose"};
 }
 
-std::vector<Diagnostic> diagnostics_of(const FlowProblem& problem, std::size_t openings,
-                                       const std::vector<Remedy>& remedies) {
-    const std::string code = problem.doubts ? "end-in-doubt"
-                             : openings < 2 ? "too-few-openings"
-                                            : "flow-missing";
+/// One for each end; the first one has the text about all of them.
+std::vector<Diagnostic> diagnostics_of(const OpeningPlan& plan, const FlowProblem& problem,
+                                       const Advice& advice) {
+    Diagnostic whole{.code = problem.code,
+                     .operation = "clip-opening",
+                     .words = problem.words,
+                     .remedies = advice.remedies()};
     std::vector<Diagnostic> diagnostics;
-    for (const EndRecord& end : problem.ends)
-        diagnostics.push_back(
-            {.code = code,
-             .place = end.place,
-             .figures = {{"number", end.number},
-                         {"diameter_mm", end.diameter},
-                         {"flow_share", end.share()},
-                         {"opening", end.verdict ? end.verdict->odds.opening : 0.0}},
-             .remedies = remedies});
-    if (diagnostics.empty()) diagnostics.push_back({.code = code, .remedies = remedies});
+    for (const EndRecord& end : problem.ends) {
+        Diagnostic& one = diagnostics.emplace_back(whole);
+        one.place = end.place;
+        one.figures = {{"number", end.number},
+                       {"diameter_mm", end.diameter},
+                       {"flow_share", end.share()},
+                       {"opening", end.verdict ? end.verdict->odds.opening : 0.0}};
+        if (problem.doubts) one.words["doubts"] = doubt_text(end);
+    }
+    if (diagnostics.empty()) diagnostics.push_back(whole);
+    diagnostics[0].words = problem.words;
+    diagnostics[0].words["ends"] = ends_text(plan);
+    if (whole.remedies.empty())
+        diagnostics[0].words["no_way"] = "none of these ends can be opened";
+    else
+        diagnostics[0].words["advice"] = advice.effect;
     return diagnostics;
 }
 
@@ -202,7 +205,7 @@ private:
             if (!options.stubs.empty() && options.open.size() > options_.open.size())
                 return judgement_with_lines(options);
             const OpeningPlan plan = plan_openings(surface_, graph_, options, cancel_);
-            return flow_problem(plan, true).text.empty() ? Judgement::Good
+            return flow_problem(plan, true).code.empty() ? Judgement::Good
                                                          : Judgement::Insufficient;
         } catch (const AlgorithmFailure&) {
             return Judgement::Impossible;
@@ -216,7 +219,7 @@ private:
         LinesAndStubs lines = lines_to_ends(surface_, wanted, cancel_);
         options.stubs = std::move(lines.stubs);
         const OpeningPlan plan = plan_openings(surface_, *lines.graph, options, cancel_);
-        return flow_problem(plan, true).text.empty() ? Judgement::Good : Judgement::Insufficient;
+        return flow_problem(plan, true).code.empty() ? Judgement::Good : Judgement::Insufficient;
     }
 
     /// Opens one end after the other until it is enough.
@@ -284,26 +287,27 @@ private:
 }  // namespace
 
 std::string why_no_flow(const OpeningPlan& plan, bool accept_doubts) {
-    const std::string text = flow_problem(plan, accept_doubts).text;
-    return text.empty() ? "" : text + ". The ends found:" + ends_text(plan);
+    const FlowProblem problem = flow_problem(plan, accept_doubts);
+    if (problem.code.empty()) return "";
+    return text_of({.code = problem.code, .words = problem.words}) +
+           ". The ends found:" + ends_text(plan);
 }
 
 void check_flow(const OpeningPlan& plan, const Surface& surface, const CenterlineGraph& graph,
                 const OpeningPlanOptions& options, const Progress& progress) {
     const FlowProblem problem = flow_problem(plan, options.accept_doubts);
-    if (problem.text.empty()) return;
+    if (problem.code.empty()) return;
     Advice advice{"accept_doubts", "true", "goes on with the likelier choice"};
     if (!problem.doubts) {
-        progress.report(0.0, "looking for a way on");
+        progress.report(0.0, "looking for a remedy");
         advice =
             WayOn(surface, graph, options, problem, progress.silent()).advice(plan.openings.size());
     }
-    throw DiagnosedFailure(why_no_flow(plan, options.accept_doubts) + advice.text(),
-                           diagnostics_of(problem, plan.openings.size(), advice.remedies()));
+    throw DiagnosedFailure(diagnostics_of(plan, problem, advice));
 }
 
-std::string closing_advice(const Positions& closed) {
-    return closing(closed).text();
+Remedy closing_remedy(const Positions& closed) {
+    return closing(closed).remedies().front();
 }
 
 }  // namespace vesselbench

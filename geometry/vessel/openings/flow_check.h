@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "geometry/kernel/diagnosed_error.h"
+#include "geometry/kernel/diagnostic.h"
 #include "geometry/kernel/progress.h"
 #include "geometry/vessel/openings/openings.h"
 
@@ -13,13 +15,14 @@ namespace vesselbench {
 [[nodiscard]] std::string why_no_flow(const OpeningPlan& plan, bool accept_doubts = false);
 
 /// \param options that made the plan
-/// \throw DiagnosedFailure that says why_no_flow and names the arguments of clip-opening that go on;
+/// \throw DiagnosedFailure with one diagnostic for each end, which has why_no_flow and the arguments of
+/// clip-opening that go on;
 /// they were tried, which takes as long as several plans; Cancelled
 void check_flow(const OpeningPlan& plan, const Surface& surface, const CenterlineGraph& graph,
                 const OpeningPlanOptions& options, const Progress& progress = {});
 
-/// How to leave ends closed on purpose: "closed=1,2,3 ..." and the same for prepare.
+/// Leaves ends closed on purpose: clip-opening closed=1,2,3.
 /// \param closed all of them
-[[nodiscard]] std::string closing_advice(const Positions& closed);
+[[nodiscard]] Remedy closing_remedy(const Positions& closed);
 
 }  // namespace vesselbench

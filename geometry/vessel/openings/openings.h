@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/kernel/diagnostic.h"
 #include "geometry/kernel/progress.h"
 #include "geometry/vessel/centerlines/stubs.h"
 #include "geometry/vessel/ends/end_choice.h"
@@ -69,9 +70,9 @@ struct EndRecord {
 struct OpeningPlan {
     std::vector<PlannedOpening> openings;
     std::vector<PlannedClosing> closings;
-    std::vector<EndRecord> ends;        ///< every end found, worst first
-    std::vector<std::string> warnings;  ///< about the places of openings: bends, doubtful axes
-    std::vector<std::size_t> inlets;    ///< the openings that are inlets; empty: chosen by width
+    std::vector<EndRecord> ends;       ///< every end found, worst first
+    std::vector<Diagnostic> warnings;  ///< about the places of openings: bends, doubtful axes
+    std::vector<std::size_t> inlets;   ///< the openings that are inlets; empty: chosen by width
     std::vector<std::size_t> other_inlets;  ///< ends that may be the inlet as well, by record
 };
 

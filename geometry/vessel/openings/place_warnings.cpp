@@ -1,6 +1,6 @@
 #include "geometry/vessel/openings/place_warnings.h"
 
-#include <cmath>
+#include <utility>
 
 #include "geometry/kernel/wording.h"
 
@@ -22,27 +22,20 @@ std::string tilt_text(const OpeningPlace& place) {
     return "tilted by " + formatted(place.tilt_deg, "%.0f degrees") + " against the vessel's axis";
 }
 
-std::vector<std::string> place_warnings(const OpeningPlace& place) {
-    std::vector<std::string> warnings;
-    const std::string at = place_text(place.plane.point);
-    if (place.bend_deg > kBendDeg)
-        warnings.push_back("the opening at " + at + " lies in a bend: the vessel turns by " +
-                           formatted(place.bend_deg, "%.0f degrees") + " over one diameter");
+std::vector<Diagnostic> place_warnings(const OpeningPlace& place) {
+    std::vector<Diagnostic> warnings;
+    const auto add = [&](const char* code, std::map<std::string, double> figures) {
+        warnings.push_back(
+            {.code = code, .place = place.plane.point, .figures = std::move(figures)});
+    };
+    if (place.bend_deg > kBendDeg) add("opening-in-bend", {{"turn_deg", place.bend_deg}});
     if (place.share > kNoticedShare)
-        warnings.push_back("the opening at " + at + " gives up " +
-                           std::to_string(std::lround(100.0 * place.share)) +
-                           " % of its branch: the end is oblique or ragged");
+        add("opening-shortens-branch", {{"branch_percent", 100.0 * place.share}});
     if (!place.measured)
-        warnings.push_back("the vessel behind the opening at " + at +
-                           " is too short to measure its axis: the opening follows the "
-                           "centerline's direction");
+        add("opening-without-axis", {});
     else if (place.doubt_deg > kNoticedDoubtDeg)
-        warnings.push_back("the direction of the opening at " + at + " is known to " +
-                           formatted(place.doubt_deg, "%.0f degrees") +
-                           " only (one standard deviation): its vessel is short, uneven or few "
-                           "voxels wide");
-    if (const std::string tilt = tilt_text(place); !tilt.empty())
-        warnings.push_back("the opening at " + at + " is " + tilt);
+        add("opening-direction-uncertain", {{"deviation_deg", place.doubt_deg}});
+    if (place.tilt_deg > kNoticedTiltDeg) add("opening-tilted", {{"tilt_deg", place.tilt_deg}});
     return warnings;
 }
 

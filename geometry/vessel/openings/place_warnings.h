@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/kernel/diagnostic.h"
 #include "geometry/vessel/openings/opening_place.h"
 
 namespace vesselbench {
@@ -12,6 +13,6 @@ namespace vesselbench {
 
 /// What a user should know about the place of a cut: a bend, a part of the branch given up, a
 /// direction that is not known well.
-[[nodiscard]] std::vector<std::string> place_warnings(const OpeningPlace& place);
+[[nodiscard]] std::vector<Diagnostic> place_warnings(const OpeningPlace& place);
 
 }  // namespace vesselbench

@@ -126,7 +126,7 @@ void PlanDraft::open(std::size_t e, const OpeningPlace& place, OpeningWay way,
     records_[e].fate = way == OpeningWay::Cut ? EndFate::Opened : EndFate::Kept;
     records_[e].why = why;
     if (way != OpeningWay::Cut) return;
-    for (std::string& warning : place_warnings(place)) plan_.warnings.push_back(std::move(warning));
+    for (Diagnostic& warning : place_warnings(place)) plan_.warnings.push_back(std::move(warning));
 }
 
 void PlanDraft::close(std::size_t e, const std::string& why) {

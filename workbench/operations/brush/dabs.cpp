@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "geometry/kernel/argument_checks.h"
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
 
@@ -93,14 +94,17 @@ Dab single_dab(const DabUse& use, const Surface& surface, const SurfaceDistance&
                   .falloff = arguments.optional_real("falloff").value_or(kFalloff)};
     const double off = (dab.anchor.point - at).norm();
     if (off <= radius) return dab;
-    const std::string text =
-        "at=" + to_text(Value(at)) + " is " + formatted(off, "%.4g") + " mm away from the surface";
-    const std::string nearest = "the nearest point, " + place_text(dab.anchor.point);
-    if (off > kFarthest * radius)
-        throw AlgorithmFailure(use.operation + ": " + text + ", more than " +
-                               formatted(kFarthest, "%.0f") + " radii: give a point on it, as " +
-                               nearest);
-    outcome.warnings.push_back(text + "; brushed at " + nearest);
+    Diagnostic found{.code = "dab-off-surface",
+                     .operation = use.operation,
+                     .place = dab.anchor.point,
+                     .figures = {{"distance_mm", off}},
+                     .words = {{"given", coordinates_text(at)}}};
+    if (off > kFarthest * radius) {
+        found.code = "dab-too-far";
+        found.figures["radii"] = kFarthest;
+        throw DiagnosedFailure(std::move(found));
+    }
+    outcome.warnings.push_back(std::move(found));
     return dab;
 }
 

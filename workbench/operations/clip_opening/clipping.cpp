@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/ends/stub_lines.h"
@@ -83,7 +84,11 @@ void require_tube(const Surface& surface, const CenterlineGraph& graph) {
     if (options.tip) throw AlgorithmFailure(failed.why);
     Positions closed = options.closed;
     closed.push_back(failed.tip);
-    throw AlgorithmFailure(failed.why + closing_advice(closed));
+    throw DiagnosedFailure({.code = "end-not-cut",
+                            .operation = "clip-opening",
+                            .place = failed.tip,
+                            .words = {{"why", failed.why}},
+                            .remedies = {closing_remedy(closed)}});
 }
 
 /// A branch that gets a line may show further ones without.

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <string>
+#include <optional>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
@@ -11,14 +11,14 @@ namespace vesselbench {
 
 /// What a user should know about the ends, worst first. Small closed ends share a warning, except
 /// the open rims among them, and vessels that an image's border cuts.
-[[nodiscard]] std::vector<std::string> end_warnings(const OpeningPlan& plan);
+[[nodiscard]] std::vector<Diagnostic> end_warnings(const OpeningPlan& plan);
 
-/// Of flat ends that were kept although the vessels behind them run another way; empty if there
+/// Of flat ends that were kept although the vessels behind them run another way; none if there
 /// are none.
 /// \param openings of the report (record_of)
-[[nodiscard]] std::string tilt_warning(const nlohmann::ordered_json& openings);
+[[nodiscard]] std::optional<Diagnostic> tilt_warning(const nlohmann::ordered_json& openings);
 
-/// What to say of outlets that look like inlets; empty if there are none.
-[[nodiscard]] std::string further_inlets(const Surface& surface);
+/// What to say of outlets that look like inlets; none if there are none.
+[[nodiscard]] std::optional<Diagnostic> further_inlets(const Surface& surface);
 
 }  // namespace vesselbench

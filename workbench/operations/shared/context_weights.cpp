@@ -157,18 +157,18 @@ Json context_json(const ContextFigures& figures) {
     return json;
 }
 
-std::string why_all_is_kept(const ContextFigures& figures, const Arguments& resolved) {
-    std::ostringstream text;
+std::optional<Diagnostic> why_all_is_kept(const ContextFigures& figures,
+                                          const Arguments& resolved) {
     const double margin = resolved.real("margin");
     const double farthest = figures.largest_neighbour_distance.value_or(0.0);
     if (resolved.flag("staircase") && figures.staircase_vertices == 0)
-        text << "the surface bends nowhere by more than tau_theta = "
-             << to_text(resolved.real("tau_theta"))
-             << "; a smaller value finds smoother staircases";
-    else if (resolved.text("distance") == "margin" && margin >= farthest)
-        text << "the whole surface is within the margin of " << margin
-             << " mm; its farthest vertex is " << farthest << " mm from a neighbour";
-    return text.str();
+        return Diagnostic{.code = "no-vertex-on-staircases",
+                          .figures = {{"tau_theta", resolved.real("tau_theta")}},
+                          .remedies = {{.arguments = {{"tau_theta", ""}}}}};
+    if (resolved.text("distance") == "margin" && margin >= farthest)
+        return Diagnostic{.code = "all-within-margin",
+                          .figures = {{"margin_mm", margin}, {"farthest_mm", farthest}}};
+    return std::nullopt;
 }
 
 Combination combination_from(const Arguments& arguments) {

@@ -85,9 +85,10 @@ enum class Combination { Multiply, Average };
                                              ContextFinder& finder, Arguments& arguments);
 
 /// The reason if the weights are 0 on the whole surface: thresholds that find no staircase, or a
-/// margin that covers everything; else empty.
+/// margin that covers everything; else none.
 /// \param figures, resolved after context_weights
-[[nodiscard]] std::string why_all_is_kept(const ContextFigures& figures, const Arguments& resolved);
+[[nodiscard]] std::optional<Diagnostic> why_all_is_kept(const ContextFigures& figures,
+                                                        const Arguments& resolved);
 
 /// Distance of every position from one neighbour [mm]; 0 inside a closed one.
 [[nodiscard]] std::vector<double> distances_from_neighbour(const Surface& neighbour,

@@ -1,19 +1,20 @@
 #include "workbench/operations/shared/crossing_warning.h"
 
-#include "geometry/kernel/wording.h"
+#include <utility>
 
 namespace vesselbench {
 
-void warn_of_crossings(const TakenBack& taken, const std::string& mover, const std::string& remedy,
-                       Outcome& outcome) {
+void warn_of_crossings(const TakenBack& taken, const std::string& code,
+                       std::vector<Remedy> remedies, Outcome& outcome) {
     if (taken.vertices == 0) return;
-    std::string text = counted(taken.vertices, "vertex", "vertices") + " moved less than the " +
-                       mover + " would have moved them, first near " + place_text(taken.place) +
-                       ": walls would have passed through each other";
-    if (taken.crossings_left > 0)
-        text += "; " + counted(taken.crossings_left, "pair of triangles", "pairs of triangles") +
-                " still do: " + remedy;
-    outcome.warnings.push_back(text);
+    Diagnostic warning{.code = code,
+                       .place = taken.place,
+                       .figures = {{"vertices", static_cast<double>(taken.vertices)}}};
+    if (taken.crossings_left > 0) {
+        warning.figures["crossings"] = static_cast<double>(taken.crossings_left);
+        warning.remedies = std::move(remedies);
+    }
+    outcome.warnings.push_back(std::move(warning));
 }
 
 }  // namespace vesselbench

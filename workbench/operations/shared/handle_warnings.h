@@ -1,8 +1,8 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
+#include "geometry/kernel/diagnostic.h"
 #include "geometry/kernel/progress.h"
 #include "geometry/kernel/surface.h"
 
@@ -11,7 +11,7 @@ namespace vesselbench {
 /// One warning for each handle of a vessel's lumen, with its place, width and length around; of
 /// very many, their number. Blood can go around through a handle: true for a ring of vessels, an
 /// artefact where two vessels merely touch in the image. \throw Cancelled if the user cancels
-[[nodiscard]] std::vector<std::string> handle_warnings(const Surface& surface,
-                                                       const Progress& progress);
+[[nodiscard]] std::vector<Diagnostic> handle_warnings(const Surface& surface,
+                                                      const Progress& progress);
 
 }  // namespace vesselbench

@@ -22,20 +22,26 @@ Parameter units_parameter(Meaning meaning) {
 
 namespace {
 
-/// A warning if the file's coordinates have a vessel's size in another unit only; else empty.
-std::string unlikely_unit_text(const SurfaceArgument& read, LengthUnit unit) {
-    if (read.surface.empty()) return "";
+/// A warning if the file's coordinates have a vessel's size in another unit only.
+std::optional<Diagnostic> unlikely_unit(const SurfaceArgument& read, LengthUnit unit) {
+    if (read.surface.empty()) return std::nullopt;
     Positions raw = read.surface.points();
     for (Vec3& point : raw) point /= millimetres_per(unit);
     const Surface in_file = read.surface.with_positions(std::move(raw));
     const UnitGuess guess = guess_length_unit(in_file);
-    if (guess.unit == unit) return "";
-    const std::string text = read.name + " is read in " + read.units + ", as asked, but ";
-    if (guess.doubt.empty())
-        return text + "has a vessel's size in " + to_string(guess.unit) + " only (" + guess.reason +
-               ")";
-    const bool possible = guess_length_unit(in_file, unit).unit == unit;
-    return possible ? "" : text + guess.doubt;
+    if (guess.unit == unit) return std::nullopt;
+    Diagnostic warning{.code = "unit-unlikely",
+                       .words = {{"file", read.name}, {"units", read.units}},
+                       .remedies = {{.arguments = {{"units", to_string(guess.unit)}}}}};
+    if (guess.doubt.empty()) {
+        warning.words["likely"] = to_string(guess.unit);
+        warning.words["reason"] = guess.reason;
+        return warning;
+    }
+    if (guess_length_unit(in_file, unit).unit == unit) return std::nullopt;  // it is possible
+    warning.code = "unit-doubtful";
+    warning.words["doubt"] = guess.doubt;
+    return warning;
 }
 
 }  // namespace
@@ -52,16 +58,18 @@ SurfaceArgument read_surface_argument(const Arguments& arguments, Outcome& outco
                          .notes = std::move(file.notes)};
     outcome.resolved.set("units", read.units);
     if (!open) {
-        const std::string text = unlikely_unit_text(read, file.unit);
-        if (!text.empty()) outcome.warnings.push_back(text);
+        auto warning = unlikely_unit(read, file.unit);
+        if (warning) outcome.warnings.push_back(std::move(*warning));
     }
     if (file.unit_doubt.empty()) return read;
     read.unit_doubt =
         read.name + " does not state its unit: " + file.unit_doubt + "; both can be a vessel";
     if (units == "auto")
         throw UsageError(read.unit_doubt + ". Give units=mm, cm or m (prepare and new: --units)");
-    outcome.warnings.push_back(read.unit_doubt + ". It is read as " + read.units +
-                               "; change the units of the edit if that is wrong");
+    outcome.warnings.push_back(
+        {.code = "unit-guessed",
+         .words = {{"file", read.name}, {"doubt", file.unit_doubt}, {"units", read.units}},
+         .remedies = {{.arguments = {{"units", ""}}}}});
     return read;
 }
 

@@ -186,16 +186,14 @@ FilterParameters filter_from(const Arguments& resolved) {
     return LaplaceHcParameters{lambda, resolved.real("alpha"), resolved.real("beta")};
 }
 
-std::string filter_warning(const FilterParameters& filter) {
+std::optional<Diagnostic> filter_warning(const FilterParameters& filter) {
     const auto* hc = std::get_if<LaplaceHcParameters>(&filter);
-    if (hc != nullptr && amplifies(*hc))
-        return "Laplace+HC with these values roughens the surface instead of smoothing it: keep "
-               "(1 - beta) * lambda at or below 0.5";
+    if (hc != nullptr && amplifies(*hc)) return Diagnostic{.code = "filter-roughens"};
     const auto* taubin = std::get_if<TaubinParameters>(&filter);
     if (taubin != nullptr && amplifies(*taubin))
-        return "Taubin with these values amplifies the finest bumps: use a smaller lambda (0.5 is "
-               "safe)";
-    return "";
+        return Diagnostic{.code = "filter-amplifies",
+                          .remedies = {{.arguments = {{"lambda", "0.5"}}}}};
+    return std::nullopt;
 }
 
 }  // namespace vesselbench

@@ -19,7 +19,7 @@ void resolve_filter(const Scene& scene, Arguments& arguments);
 /// The filter of resolved arguments.
 [[nodiscard]] FilterParameters filter_from(const Arguments& resolved);
 
-/// A warning about the filter's arguments; empty if there is none.
-[[nodiscard]] std::string filter_warning(const FilterParameters& filter);
+/// A warning about the filter's arguments; none if they are well chosen.
+[[nodiscard]] std::optional<Diagnostic> filter_warning(const FilterParameters& filter);
 
 }  // namespace vesselbench

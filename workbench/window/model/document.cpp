@@ -5,9 +5,12 @@
 #include <chrono>
 #include <exception>
 
+#include "geometry/kernel/diagnosed_error.h"
+#include "geometry/kernel/diagnostic_text.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/pending_files.h"
 #include "geometry/kernel/wording.h"
+#include "workbench/case/diagnostic_words.h"
 #include "workbench/case/purposes.h"
 #include "workbench/export/export_formats.h"
 #include "workbench/export/products.h"
@@ -58,6 +61,19 @@ RequestLabel output_label(const std::string& what) {
     return {.what = what, .kind = RequestKind::Output};
 }
 
+/// What is known of why a request failed; empty: it was cancelled.
+std::vector<Diagnostic> errors_of(const std::exception_ptr& error) {
+    std::string text = error_text(error);
+    if (text.empty()) return {};
+    try {
+        std::rethrow_exception(error);
+    } catch (const Diagnosed& known) {
+        return known.diagnostics();
+    } catch (...) {
+        return {plain_text(std::move(text))};
+    }
+}
+
 }  // namespace
 
 Document::Document(DocumentOptions options)
@@ -76,7 +92,7 @@ void Document::watch(Task<Result> task, const RequestLabel& label, Then then) {
         try {
             then(task.result());
         } catch (...) {
-            end(RequestEnd{label, error_text(std::current_exception())});
+            end(RequestEnd{label, errors_of(std::current_exception())});
         }
     };
     requests_.push_back({label, std::move(run), finish});
@@ -154,7 +170,7 @@ void Document::take_opened() {
     try {
         show(std::move(*opened));
     } catch (const std::exception& error) {
-        fail(error.what(), {});
+        fail(diagnostics_of(error).front(), {});
     }
 }
 
@@ -172,7 +188,7 @@ void Document::show(Opened opened) {
         if (entry.result) tell_warnings(entry.edit, *entry.result);
     const std::string what = opened.is_new ? "New project " : "Opened ";
     tell(make_message(MessageKind::Success, what + project_.string()));
-    for (const std::string& remark : opened.remarks) tell_once(message_from(remark));
+    for (const Message& remark : opened.remarks) tell_once(remark);
 }
 
 void Document::take_snapshot() {
@@ -234,10 +250,10 @@ bool Document::begin_request(RequestKind kind) {
 
 void Document::end(const RequestEnd& end) {
     if (end.label.kind == RequestKind::Edit) preparation_.reset();
-    if (end.error.empty())
+    if (end.errors.empty())
         tell(make_message(MessageKind::Remark, "Cancelled"));
     else
-        fail(end.error, end.label.operation);
+        fail(end.errors.front(), end.label.operation);
 }
 
 void Document::enter(const LogEntry& entry) {
@@ -253,11 +269,10 @@ void Document::tell_entered(const LogEntry& entry) {
 }
 
 void Document::tell_warnings(const EditRecord& edit, const ResultRecord& result) {
-    for (const std::string& warning : result.warnings) {
-        Message message = make_message(MessageKind::Warning,
-                                       readable(edit.operation) + ": " + warning, edit.operation);
-        if (edit.edit.id != 0) message.edit = edit.edit.id;
-        tell(std::move(message));
+    for (Diagnostic warning : result.warnings) {
+        warning.operation = edit.operation;
+        if (edit.edit.id != 0) warning.edit = edit.edit.id;
+        tell(make_message(warning));
     }
 }
 
@@ -440,7 +455,7 @@ void Document::prepare(const std::string& purpose, std::optional<Step> again_fro
     if (!resumed.refusal.empty()) return fail(resumed.refusal, {});
     show_variant(purpose);
     drop_preview();
-    for (const std::string& remark : resumed.remarks) tell(message_from("warning: " + remark));
+    for (const std::string& remark : resumed.remarks) tell(make_message(plain_text(remark)));
     if (resumed.rest.empty()) return end_at_once(purpose, all_made_text(resumed));
     preparation_ = Preparation{.recipe = resumed.rest,
                                .purpose = purpose,
@@ -593,6 +608,13 @@ void Document::forget_messages() {
 
 void Document::fail(const std::string& text, const std::string& operation) {
     failure_ = make_message(MessageKind::Error, text, operation);
+    tell(*failure_);
+}
+
+void Document::fail(Diagnostic error, const std::string& operation) {
+    if (error.code == kPlainText) return fail(text_of(error), operation);
+    if (error.operation.empty()) error.operation = operation;
+    failure_ = make_message(error);
     tell(*failure_);
 }
 

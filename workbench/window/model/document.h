@@ -237,6 +237,7 @@ private:
     void end_at_once(const std::string& purpose, const std::string& text);
     void forget_messages();
     void fail(const std::string& text, const std::string& operation);
+    void fail(Diagnostic error, const std::string& operation);
 
     DocumentOptions options_;
     TaskThread closer_;

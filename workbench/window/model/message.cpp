@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cctype>
-#include <regex>
 
+#include "workbench/case/diagnostic_words.h"
 #include "workbench/operations/table.h"
 #include "workbench/window/model/local_time.h"
 #include "workbench/window/model/readable.h"
@@ -48,22 +48,27 @@ std::string remedy_in(const std::string& text, const std::string& failed) {
     return first;
 }
 
-std::optional<Vec3> place_in(const std::string& text) {
-    static const std::regex place(
-        R"(\((-?[0-9][0-9.e+-]*), (-?[0-9][0-9.e+-]*), (-?[0-9][0-9.e+-]*)\) mm)");
-    std::smatch found;
-    if (!std::regex_search(text, found, place)) return std::nullopt;
-    return Vec3(std::stod(found[1]), std::stod(found[2]), std::stod(found[3]));
-}
-
 Message make_message(MessageKind kind, std::string text, const std::string& failed) {
     if (kind == MessageKind::Error && begins_with_word(text))
         text = readable_sentence(std::move(text));
     Message message{.kind = kind, .text = std::move(text), .time = local_time("%H:%M:%S")};
-    message.place = place_in(message.text);
-    if (kind == MessageKind::Error || kind == MessageKind::Warning)
-        message.remedy = remedy_in(message.text, failed);
+    if (kind == MessageKind::Error) message.remedy = remedy_in(message.text, failed);
     return message;
+}
+
+Message make_message(const Diagnostic& diagnostic) {
+    const bool failed = diagnostic.severity == Severity::Error;
+    const auto remedy = std::ranges::find_if(diagnostic.remedies, [&](const Remedy& one) {
+        return !one.operation.empty() && one.operation != diagnostic.operation;
+    });
+    std::string text = worded_with_operation(diagnostic, {.window = true});
+    if (begins_with_word(text)) text = readable_sentence(std::move(text));
+    return {.kind = failed ? MessageKind::Error : MessageKind::Warning,
+            .text = std::move(text),
+            .remedy = remedy == diagnostic.remedies.end() ? "" : remedy->operation,
+            .time = local_time("%H:%M:%S"),
+            .edit = diagnostic.edit,
+            .place = diagnostic.place};
 }
 
 }  // namespace vesselbench

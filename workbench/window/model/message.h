@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "geometry/kernel/vec3.h"
+#include "geometry/kernel/diagnostic.h"
 #include "workbench/case/history.h"
 
 namespace vesselbench {
@@ -14,20 +14,21 @@ enum class MessageKind { Remark, Success, Warning, Error };
 struct Message {
     MessageKind kind = MessageKind::Remark;
     std::string text;
-    std::string remedy;          ///< name of an operation that the text recommends; empty: none
+    std::string remedy;          ///< name of an operation that would solve it; empty: none
     std::string time;            ///< local, "14:05:31"
     std::optional<EditId> edit;  ///< that it is about
-    std::optional<Vec3> place;   ///< that the text names [mm]
+    std::optional<Vec3> place;   ///< that it is about [mm]
 };
 
 /// A message of now. \param failed the operation it is about, which is no remedy for itself
 [[nodiscard]] Message make_message(MessageKind kind, std::string text,
                                    const std::string& failed = {});
 
-/// The first place in a text: "(3.7617, 25.896, 13.937) mm"; none: it names no place.
-[[nodiscard]] std::optional<Vec3> place_in(const std::string& text);
+/// What an edit, a recipe or an error says, in the window's words, with its operation before it.
+[[nodiscard]] Message make_message(const Diagnostic& diagnostic);
 
-/// The first operation that a text names as a whole word, other than `failed`; empty: none.
+/// The first operation that an error's text names as a whole word, other than `failed`; empty:
+/// none. For errors that have no diagnostics.
 [[nodiscard]] std::string remedy_in(const std::string& text, const std::string& failed);
 
 }  // namespace vesselbench

@@ -10,6 +10,7 @@
 #include "workbench/case/purposes.h"
 #include "workbench/prepare/prepare.h"
 #include "workbench/session/stored_texts.h"
+#include "workbench/window/model/preparation.h"
 #include "workbench/window/model/user_folders.h"
 
 namespace vesselbench {
@@ -64,7 +65,7 @@ fs::path case_folder(const fs::path& project) {
 }
 
 /// What a reopened project knows of its input: its own recipes, unless they cannot be used.
-std::optional<Input> remembered_input(const fs::path& project, std::vector<std::string>& remarks) {
+std::optional<Input> remembered_input(const fs::path& project, std::vector<Message>& remarks) {
     try {
         const std::string text = stored_text(project, StoredText::Recipes);
         if (text.empty()) return std::nullopt;
@@ -75,8 +76,7 @@ std::optional<Input> remembered_input(const fs::path& project, std::vector<std::
         return input;
     } catch (const std::exception& error) {
         remarks.push_back(
-            std::string("warning: the recipe of the case cannot be used, the usual one is: ") +
-            error.what());
+            make_message({.code = "recipe-unusable", .words = {{"reason", error.what()}}}));
         return std::nullopt;
     }
 }
@@ -86,7 +86,8 @@ Opened open_project(const OpenRequest& request, const SessionOptions& options) {
     opened.input = remembered_input(request.path, opened.remarks);
     opened.prepared = prepared_purposes(request.path);
     const std::string reason = opened.session.read_only_reason();
-    if (!reason.empty()) opened.remarks.push_back("read-only: " + reason);
+    if (!reason.empty())
+        opened.remarks.push_back(make_message(MessageKind::Remark, "read-only: " + reason));
     return opened;
 }
 
@@ -100,8 +101,9 @@ Opened open_input(const fs::path& path, const fs::path& project, const SessionOp
     } catch (const std::exception& error) {
         throw InvalidInput("case '" + input.name + "': its recipe cannot be used: " + error.what());
     }
-    std::vector<std::string> remarks;
-    const Teller tell = [&](const std::string& text) { remarks.push_back(text); };
+    std::vector<Message> remarks;
+    const Teller tell([&](const std::string& text) { remarks.push_back(message_from(text)); },
+                      [&](const Diagnostic& warning) { remarks.push_back(make_message(warning)); });
     Session session = start_project(project, input, options, tell, progress.part(0.4, 1.0));
     return {std::move(session), project, true, input, std::move(remarks), {}};
 }

@@ -8,6 +8,7 @@
 #include "workbench/prepare/input.h"
 #include "workbench/prepare/prepared_purposes.h"
 #include "workbench/session/session.h"
+#include "workbench/window/model/message.h"
 
 namespace vesselbench {
 
@@ -28,7 +29,7 @@ struct Opened {
     std::filesystem::path project;
     bool is_new = false;         ///< the project was made for this input
     std::optional<Input> input;  ///< of a new project, with the case's own recipes
-    std::vector<std::string> remarks;
+    std::vector<Message> remarks;
     PreparedPurposes prepared;
 };
 

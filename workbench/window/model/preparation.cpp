@@ -24,36 +24,25 @@ std::string taken_word(std::string& text, std::string_view separator) {
 }
 
 /// A line of the command line in the window's words: "openings: clip-opening (0.3 s): ..." as
-/// "Clip opening (0.3 s): ...". \param about receives the operation that it begins with
-std::string in_window_words(const std::string& text, std::string& about) {
+/// "Clip opening (0.3 s): ...".
+std::string in_window_words(const std::string& text) {
     std::string rest = text;
     const std::string step = taken_word(rest, ": ");
-    if (known_operation(step) != nullptr) {
-        about = step;
-        return readable(step) + ": " + rest;
-    }
+    if (known_operation(step) != nullptr) return readable(step) + ": " + rest;
     const std::string operation = taken_word(rest, " (");
-    if (known_operation(operation) == nullptr) return text;
-    about = operation;
-    return readable(operation) + " (" + rest;
+    return known_operation(operation) == nullptr ? text : readable(operation) + " (" + rest;
 }
 
 }  // namespace
 
-void RecipeMessages::add(const std::string& text) {
+void RecipeMessages::add(Message message) {
     const std::lock_guard lock(mutex_);
-    texts_.push_back(text);
+    messages_.push_back(std::move(message));
 }
 
 std::vector<Message> RecipeMessages::take() {
-    std::vector<std::string> texts;
-    {
-        const std::lock_guard lock(mutex_);
-        texts.swap(texts_);
-    }
-    std::vector<Message> messages;
-    for (const std::string& text : texts) messages.push_back(message_from(text));
-    return messages;
+    const std::lock_guard lock(mutex_);
+    return std::exchange(messages_, {});
 }
 
 Task<Nothing> Preparation::start(SessionRunner& runner,
@@ -61,7 +50,8 @@ Task<Nothing> Preparation::start(SessionRunner& runner,
     const bool first = next == 0, last = next + 1 == recipe.size();
     return runner.submit([entry = recipe[next], purpose = purpose, project = project, first, last,
                           messages](Session& session, const Progress& progress) {
-        const Teller note = [&](const std::string& text) { messages->add(text); };
+        const Teller note([&](const std::string& text) { messages->add(message_from(text)); },
+                          [&](const Diagnostic& warning) { messages->add(make_message(warning)); });
         if (first) begin_purpose(project, purpose);
         apply_recipe(session, {entry}, purpose, note, progress);
         if (last) end_purpose(project, purpose);
@@ -84,12 +74,7 @@ ResumedRecipe missing_entries(const Snapshot& snapshot, const std::optional<Inpu
 }
 
 Message message_from(const std::string& text) {
-    constexpr std::string_view kWarning = "warning: ";
-    const bool warns = text.starts_with(kWarning);
-    std::string about;
-    std::string words = in_window_words(warns ? text.substr(kWarning.size()) : text, about);
-    return make_message(warns ? MessageKind::Warning : MessageKind::Remark, std::move(words),
-                        about);
+    return make_message(MessageKind::Remark, in_window_words(text));
 }
 
 }  // namespace vesselbench

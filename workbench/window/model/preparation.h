@@ -18,14 +18,14 @@ namespace vesselbench {
 /// The messages of a recipe while it runs, handed from the session's thread to the frame's.
 class RecipeMessages {
 public:
-    void add(const std::string& text);
+    void add(Message message);
 
     /// Those since the last call.
     [[nodiscard]] std::vector<Message> take();
 
 private:
     std::mutex mutex_;
-    std::vector<std::string> texts_;
+    std::vector<Message> messages_;
 };
 
 /// A recipe that runs on a case, one entry after the other, so that the view follows it.
@@ -58,8 +58,8 @@ struct Preparation {
                                             const std::string& purpose,
                                             const std::vector<std::string>& done);
 
-/// A message of a text that may begin with "warning: "; the names of a step and an operation at its
-/// beginning are put in the window's words.
+/// A remark of a line; the names of a step and an operation at its beginning are put in the
+/// window's words.
 [[nodiscard]] Message message_from(const std::string& text);
 
 }  // namespace vesselbench

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "workbench/case/argument_texts.h"
+#include "workbench/case/diagnostic_words.h"
 #include "workbench/operations/table.h"
 #include "workbench/report/log_json.h"
 #include "workbench/window/model/brush_form.h"
@@ -40,7 +41,7 @@ RailEdit rail_edit(const LogEntry& entry) {
                  .places = places_of_edit(entry)};
     if (entry.result) {
         row.change = effect_text(*entry.result);
-        row.warnings = entry.result->warnings;
+        row.warnings = worded(entry.result->warnings, {.window = true});
     }
     return row;
 }

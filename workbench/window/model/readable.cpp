@@ -1,22 +1,9 @@
 #include "workbench/window/model/readable.h"
 
-#include <cctype>
 #include <charconv>
 #include <cmath>
 
 namespace vesselbench {
-
-std::string readable(const std::string& name) {
-    std::string words = name;
-    for (char& letter : words)
-        if (letter == '-' || letter == '_') letter = ' ';
-    return readable_sentence(std::move(words));
-}
-
-std::string readable_sentence(std::string sentence) {
-    if (!sentence.empty()) sentence[0] = static_cast<char>(std::toupper(sentence[0]));
-    return sentence;
-}
 
 std::string readable_unit(const std::string& unit) {
     if (unit == "-") return "";

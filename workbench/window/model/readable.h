@@ -3,14 +3,9 @@
 #include <optional>
 #include <string>
 
+#include "workbench/case/readable_name.h"
+
 namespace vesselbench {
-
-/// A name of the command line as people write it: "clip-opening" is "Clip opening", "tau_max" is
-/// "Tau max".
-[[nodiscard]] std::string readable(const std::string& name);
-
-/// With a capital first letter: words stay as they are.
-[[nodiscard]] std::string readable_sentence(std::string sentence);
 
 /// A unit with raised digits: "mm²"; empty for numbers without one ("-").
 [[nodiscard]] std::string readable_unit(const std::string& unit);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/kernel/diagnostic.h"
 #include "workbench/session/task_run.h"
 
 namespace vesselbench {
@@ -29,7 +30,7 @@ struct RequestLabel {
 /// How a request that did not succeed ended.
 struct RequestEnd {
     RequestLabel label;
-    std::string error;  ///< empty: it was cancelled
+    std::vector<Diagnostic> errors;  ///< empty: it was cancelled
 };
 
 /// A request that waits or runs, with what its end does.

@@ -1,0 +1,328 @@
+#include "geometry/kernel/catalogue.h"
+
+#include "geometry/kernel/diagnostic.h"
+
+namespace vesselbench {
+
+namespace {
+
+constexpr CatalogueText kTexts[] = {
+    {kPlainText, "{text}"},
+
+    // Files and images.
+    {"unit-guessed",
+     "{file} does not state its unit: {doubt}; both can be a vessel. It is read as {units}; if "
+     "that "
+     "is wrong, give {fix}"},
+    {"unit-unlikely",
+     "{file} is read in {units}, as asked, but has a vessel's size in {likely} only ({reason})"},
+    {"unit-doubtful", "{file} is read in {units}, as asked, but {doubt}"},
+    {"voxels-too-small",
+     "the file states no unit and its voxels measure {spacing}: taken as metres; if that is wrong, "
+     "give {fix}"},
+    {"mask-not-labels", "mask: {reason}"},
+    {"file-note", "{note}"},
+
+    // Extraction.
+    {"all-labels-taken",
+     "all labels were taken as one structure, {labels}; to take some of them, give {fix}"},
+    {"one-threshold",
+     "one threshold makes the surface, since {reason}: thin vessels may come out too thick or too "
+     "thin"},
+    {"volume-uncertain",
+     "the vessel's volume is uncertain by about {volume_percent:%.0f} %: beside the image's blur "
+     "({blur} mm) it is so thin that its core reaches {core_percent:%.0f} % of the contrast"},
+    {"radius-undetermined",
+     "{wall_percent:%.0f} % of the wall belongs to vessels no wider than the image's blur ({blur} "
+     "mm): their radius is not determined"},
+    {"vessel-dropped",
+     "of {bodies#body|bodies}, one dropped at {place} is {length_mm} mm long and {diameter_mm} mm "
+     "wide: perhaps a vessel that is broken off; {fix} bridges a gap of two voxels, and {fix2} "
+     "keeps all"},
+    {"body-dropped",
+     "there are {bodies#body|bodies}; the largest one dropped has {dropped_mm3:%g} mm^3 (kept: "
+     "{kept_mm3:%g}): choose another one with {fix}, or keep all with {fix2}"},
+    {"cleaning-changed-topology", "cleaning changed the topology: {before} became {after}"},
+    {"vessel-leaves-image",
+     "the vessel leaves the image in {places#place}; it is closed by flat caps there (patches "
+     "cut_1 ...)"},
+    {"not-a-label-map",
+     "the image contains {value} and is not a label map: for intensities, use {fix}"},
+    {"threshold-changes-volume",
+     "at one threshold, {threshold}, the vessel's volume is about {volume_percent:%.0f} % {larger} "
+     "than what its intensities add up to: {fix} follows them"},
+    {"handle-artefact",
+     "the lumen has a handle at {place}, {width_mm} mm wide and {length_mm} mm around: so small a "
+     "ring is an artefact; cleaning, or another threshold, removes it"},
+    {"handle",
+     "the lumen has a handle at {place}, {width_mm} mm wide and {length_mm} mm around: if two "
+     "vessels merely touch there, blood takes a path that does not exist; a true ring of vessels, "
+     "such as the circle of Willis, stays"},
+    {"many-handles",
+     "the lumen has {handles#handle}: vessels touch, or noise is part of it; choose another "
+     "threshold, or clean the image"},
+
+    // Repair and local edits.
+    {"outer-wall-removed",
+     "the surface has the outer and the inner side of a vessel's wall: the outer one was removed, "
+     "since blood flows inside the inner one; to use the outer one, load it from a file of its "
+     "own"},
+    {"vessel-removed",
+     "{pieces#unconnected piece was|unconnected pieces were} removed, the longest of which, at "
+     "{place}, is {length_mm} mm long and {diameter_mm} mm wide: a vessel; {fix} keeps it"},
+    {"pieces-removed",
+     "{pieces#unconnected piece|unconnected pieces} with {triangles#triangle} were removed; to "
+     "keep "
+     "more of them, give {fix}"},
+    {"hole-in-wall-closed",
+     "a hole at {place} was closed, {width_mm} mm wide, in the wall of a vessel {lumen_mm} mm "
+     "wide, "
+     "where a branch may have been torn off; {fix} leaves it open"},
+    {"vessel-end-closed",
+     "a hole at {place} was closed, {width_mm} mm wide, as wide as the vessel behind it; {fix} "
+     "leaves it open"},
+    {"more-holes-closed",
+     "{holes#smaller hole was|smaller holes were} closed that may be ends of vessels: see the "
+     "report"},
+    {"orientation-reversed", "the surface was inside out; its orientation was reversed"},
+    {"width-unknown", "the surface's image is unknown, and so is what is too narrow: give {fix}"},
+    {"lumen-widened",
+     "the lumen was narrower than {limit_mm} mm at {places#place} and was widened, at {place} from "
+     "{width_mm} mm: check whether vessels are joined there at all"},
+    {"still-narrow",
+     "the lumen is still narrow at {places#place}, {width_mm} mm at {place}: inflate it by hand "
+     "({fix}), or cut it off"},
+    {"dabs-without-effect",
+     "{dabs#dab} changed nothing: the strength is 0, the radius is smaller than the triangles, or "
+     "the place is on a cap"},
+    {"dab-off-surface",
+     "the place {given} is {distance_mm:%.4g} mm away from the surface; brushed at the nearest "
+     "point, {place}"},
+    {"dab-too-far",
+     "the place {given} is {distance_mm:%.4g} mm away from the surface, more than {radii:%.0f} "
+     "radii: give a point on it, as the nearest one, {place}"},
+    {"brush-crosses-walls",
+     "{vertices#vertex|vertices} moved less than the brush would have moved them, first near "
+     "{place}: walls would have passed through each other[; {crossings#pair of triangles still "
+     "does|pairs of triangles still do}: undo, and brush with less {fix}]"},
+    {"widening-crosses-walls",
+     "{vertices#vertex|vertices} moved less than the widening would have moved them, first near "
+     "{place}: walls would have passed through each other[; {crossings#pair of triangles still "
+     "does|pairs of triangles still do}: separate the walls, or use {fix}]"},
+
+    // Smoothing.
+    {"filter-crosses-walls",
+     "{vertices#vertex|vertices} moved less than the filter would have moved them, first near "
+     "{place}: walls would have passed through each other[; {crossings#pair of triangles still "
+     "does|pairs of triangles still do}: use fewer {fix}, or {fix2}]"},
+    {"filter-roughens",
+     "Laplace+HC with these values roughens the surface instead of smoothing it: keep (1 - beta) * "
+     "lambda at or below 0.5"},
+    {"filter-amplifies",
+     "Taubin with these values amplifies the finest bumps: use a smaller lambda ({fix} is safe)"},
+    {"gpu-not-used", "the GPU was asked for, but the CPU computed this, because {reason}"},
+    {"weights-hold-back",
+     "the weights leave almost nothing to smooth (mean {weight:%g}):[ staircase "
+     "{staircase_weight:%g}][ distance {distance_weight:%g}][ painted {painted_weight:%g}]"},
+    {"hardly-any-staircases",
+     "hardly any staircases: {found:%.0f} of {vertices#vertex|vertices} bend across the slices by "
+     "more than {tau_theta:%g}, so the surface gets {beta_min:%g} of the smoothing; a smaller "
+     "value "
+     "of {fix} finds gentler staircases, {fix2} smooths in full"},
+    {"no-vertex-on-staircases",
+     "the surface bends nowhere by more than {tau_theta:%g}; a smaller value of {fix} finds "
+     "gentler "
+     "staircases[; {fix2} lets the rest move]"},
+    {"all-within-margin",
+     "the whole surface is within the margin of {margin_mm:%g} mm; its farthest vertex is "
+     "{farthest_mm:%g} mm from a neighbour"},
+    {"nothing-moved", "nothing moved: {why}"},
+    {"all-kept", "every vertex is kept or has weight 0"},
+
+    // Openings.
+    {"opening-in-bend",
+     "the opening at {place} lies in a bend: the vessel turns by {turn_deg:%.0f} degrees over one "
+     "diameter"},
+    {"opening-shortens-branch",
+     "the opening at {place} gives up {branch_percent:%.0f} % of its branch: the end is oblique or "
+     "ragged"},
+    {"opening-without-axis",
+     "the vessel behind the opening at {place} is too short to measure its axis: the opening "
+     "follows the centerline's direction"},
+    {"opening-direction-uncertain",
+     "the direction of the opening at {place} is only known to within {deviation_deg:%.0f} degrees "
+     "(one standard deviation): its vessel is short, uneven or few voxels wide"},
+    {"opening-tilted",
+     "the opening at {place} is tilted by {tilt_deg:%.0f} degrees against the vessel's axis"},
+    {"too-few-openings",
+     "a flow needs two openings, but there is {found}[. The ends found:{ends}][\n{fix} "
+     "{advice}][\n{no_way}]"},
+    {"flow-missing",
+     "{end}, is {fate} ({why}): its flow would be missing[. The ends found:{ends}][\n{fix} "
+     "{advice}][\n{no_way}]"},
+    {"end-in-doubt",
+     "it is not certain that {doubts}[. The ends found:{ends}][\n{fix} {advice}][\n{no_way}]"},
+    {"end-not-cut", "{why}\n{fix} leaves it closed on purpose"},
+    {"end-decided", "{end} at {place}, {diameter_mm} mm wide, was {fate}: {why}"},
+    {"small-ends-closed",
+     "{ends#smaller end|smaller ends} stayed closed: see the report[; {fix} opens "
+     "{opened:%.0f} of them]"},
+    {"flat-end-tilted",
+     "a flat end was kept although tilted against the vessel's axis: {openings}; {fix} cuts it "
+     "across"},
+    {"flat-ends-tilted",
+     "flat ends were kept although tilted against the vessel's axis: {openings}; {fix} cuts them "
+     "across"},
+    {"further-inlet",
+     "{openings} faces the same way as the inlet: if blood flows in there as well, give {fix}"},
+    {"further-inlets",
+     "{openings} face the same way as the inlet: if blood flows in there as well, give {fix}"},
+    {"cap-tilted",
+     "the vessel's direction at '{opening}' is {tilt_deg:%.0f} degrees from the cap's normal: it "
+     "is "
+     "extruded along the normal"},
+    {"cap-without-axis",
+     "the vessel's direction at '{opening}' cannot be measured: it is extruded along the normal"},
+    {"extrusion-shortened",
+     "the extrusion of '{opening}' is {length_mm} mm instead of {wanted_mm} mm long: another part "
+     "of the surface is in the way"},
+    {"extrusion-as-before",
+     "the extrusion of '{opening}' is {length_mm} mm instead of {wanted_mm} mm long, which was "
+     "chosen when it was first made"},
+    {"extrusion-limited",
+     "the extrusion of {openings} is shorter than {diameters:%g} diameters, limited to {share:%g} "
+     "of the model's extent; {fix} or {fix2} makes it longer"},
+    {"no-openings", "the surface has no openings; make them first ({fix})"},
+    {"opening-blocked",
+     "the opening '{opening}' at {place} cannot be extruded: another part of the surface is in its "
+     "way; clip it elsewhere, or leave it as it is"},
+    {"opening-not-extruded",
+     "the opening '{opening}' at {place} was not extruded: another part of the surface is in its "
+     "way; clip it elsewhere if it has to be"},
+
+    // Remeshing.
+    {"radius-by-rays",
+     "the radius was measured by rays across the lumen, because there are no centerlines: "
+     "{reason}"},
+    {"edges-limited",
+     "edges of {edge_mm} mm, the finest that make no more than 1 million triangles; {fix} makes "
+     "them finer or coarser"},
+    {"crossings-parted",
+     "walls that almost touch near {place} crossed after remeshing and were separated there: the "
+     "wall may have moved; separate the walls or use a smaller {fix} if that part matters"},
+    {"opening-lost",
+     "edges of {edge_mm} mm are too coarse for the opening {opening}, {diameter_mm} mm wide, which "
+     "would be lost: use {fix} or less"},
+    {"edges-coarse",
+     "edges of {edge_mm} mm are coarse for this vessel: the volume changed by "
+     "{volume_percent:%+.1f} %; use a smaller {fix}"},
+    {"nothing-to-decimate", "nothing to do: the surface has at most {triangles#triangle}"},
+    {"all-triangles-kept", "all triangles are kept: {why}"},
+    {"no-triangle-free",
+     "no triangle with a weight above 0 can be removed within the largest error allowed"},
+    {"no-edge-collapses",
+     "no edge can be collapsed within the largest error allowed; a larger {fix} permits more"},
+    {"no-staircases", "there are no staircases: {why}"},
+    {"fewer-would-fold",
+     "{triangles#triangle is|triangles are} left instead of {wanted:%.0f}: fewer would fold the "
+     "surface over, or lose a part of it"},
+    {"fewer-would-cross",
+     "{triangles#triangle is|triangles are} left instead of {wanted:%.0f}: fewer would make walls "
+     "cross that almost touch ({locked#vertex|vertices} kept there), fold the surface over, or "
+     "lose "
+     "a part of it"},
+    {"kept-vertices-lost",
+     "{vertices#vertex|vertices} of weight 0 were removed or moved, to avoid ruining the rest; "
+     "keep "
+     "more triangles"},
+    {"decimation-crosses-walls",
+     "walls that almost touch near {place} cross in {crossings#place} now; keep more triangles, or "
+     "separate the walls first"},
+    {"weights-gain-nothing",
+     "the weights gain nothing: the part they keep is {with_mm} mm off on average, and would be "
+     "{without_mm} mm off without them, because the free part is too small to pay for it; keep "
+     "more "
+     "triangles, or decimate without weights"},
+
+    // Products.
+    {"cells-limited",
+     "{wanted:%.0f} cells requested, {reached:%.0f} reached: the surface's edge length limits the "
+     "number; to change it, use {fix}"},
+    {"lumen-finer-than-wall",
+     "the lumen's edges are {size:%.2g} of the surface's: to resolve the wall as well with "
+     "{wanted:%.0f} cells, use {fix} with an edge length scaled by about that factor"},
+    {"surface-divided",
+     "TetGen had to divide triangles of the surface: the volume mesh's boundary is finer than the "
+     "surface"},
+    {"surface-not-fillable", "the surface cannot be filled with tetrahedra:{obstacles}"},
+    {"surface-not-finite",
+     "a coordinate is not a finite number ({count:%.0f} x): the file is damaged; export it again "
+     "from its source"},
+    {"surface-duplicate", "{count:%.0f} x a triangle occurs twice, at {places}; use {fix}"},
+    {"surface-degenerate", "{count:%.0f} x a triangle has no area, at {places}; use {fix}"},
+    {"surface-sliver",
+     "{count:%.0f} x a triangle is a sliver (height below 1 % of its longest edge), at {places}; "
+     "use {fix}"},
+    {"surface-gap",
+     "{count:%.0f} x the surface has a gap (an edge with one triangle), at {places}: close it; "
+     "{fix} makes caps, {fix2} closes holes"},
+    {"surface-edge-not-manifold",
+     "{count:%.0f} x more than two triangles share an edge, at {places}; use {fix}"},
+    {"surface-vertex-not-manifold",
+     "{count:%.0f} x parts of the surface touch at a single vertex, at {places}; use {fix}"},
+    {"surface-orientation",
+     "{count:%.0f} x two adjacent triangles have opposite orientations, at {places}; use {fix}"},
+    {"surface-in-parts",
+     "{count:%.0f} x the surface consists of several separate parts, at {places}; use {fix}"},
+    {"surface-inside-out", "{count:%.0f} x the triangles face inward, at {places}; use {fix}"},
+    {"surface-crosses-itself",
+     "{count:%.0f} x two triangles intersect, at {places}; use {fix}; if two branches touch, "
+     "extract them separately (a mask, another threshold)"},
+    {"thin-place",
+     "the thinnest place of the model is {distance_mm} mm, below {limit_mm} mm, at {place}"},
+    {"narrow-gap",
+     "the smallest gap between two branches is {distance_mm} mm, below {limit_mm} mm, at {place}"},
+    {"cast-may-break",
+     "the vessel turns by {turn_deg:%.0f} degrees within two diameters at {place}, above "
+     "{limit_deg:%.0f}: a cast may break there when it is taken out of its mold; straighten the "
+     "branch, or do not cast it"},
+    {"flow-not-laminar",
+     "{inlet}: Reynolds number {reynolds:%.0f} is above 2000; the laminar case does not describe "
+     "this flow"},
+    {"inlet-in-bend",
+     "{inlet} is in a bend (the centerline turns by {turn_deg:%.0f} degrees within two diameters): "
+     "the inflow profile is not that of a straight vessel; clip elsewhere or extrude the opening"},
+
+    // Edits and recipes.
+    {"argument-without-effect", "{argument} has no effect without {condition}"},
+    {"effect-on-volume-differs",
+     "it changes the volume by {now_percent:%+.2f} %, by {before_percent:%+.2f} % before an "
+     "earlier "
+     "edit was changed: check that it still does what it was made for"},
+    {"effect-on-surface-differs",
+     "it changes the surface by up to {now_mm:%.3f} mm, by up to {before_mm:%.3f} mm before an "
+     "earlier edit was changed: check that it still does what it was made for"},
+    {"volume-changed",
+     "the volume changed by {volume_percent:%.1f} %: fewer {fix}, or {fix2}, keep it"},
+    {"volume-lost",
+     "it would take {volume_percent:%.0f} % of the volume: the triangles are too coarse for the "
+     "vessel; make them finer with {fix}"},
+    {"recipe-unusable", "the recipe of the case cannot be used, the usual one is: {reason}"},
+    {"step-skipped", "the step was skipped: {why}"},
+    {"made-otherwise", "it was made with {arguments} instead: {why}"},
+    {"thin-vessels-missing",
+     "the model misses {vessels#thin vessel} of at most {diameter_mm} mm, the widest at {place}, "
+     "with {flow_percent:%.3g} % of the flow"},
+    {"vessels-not-compared", "lost vessels could not be looked for: {reason}"},
+    {"no-pictures", "the report has no pictures: {reason}"},
+    {"earlier-result", "{files} in this folder is of an earlier preparation, not of this model"},
+    {"earlier-results", "{files} in this folder are of an earlier preparation, not of this model"},
+};
+
+}  // namespace
+
+std::span<const CatalogueText> catalogue() {
+    return kTexts;
+}
+
+}  // namespace vesselbench
