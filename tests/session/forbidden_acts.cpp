@@ -67,7 +67,7 @@ int act(const std::string& what, const std::string& at) {
 Outcome forbidden_act(const Scene& scene, const Arguments& arguments, Progress&) {
     Outcome outcome{.scene = scene, .resolved = arguments};
     const int error = act(arguments.text("what"), arguments.optional_text("at").value_or(""));
-    outcome.warnings.push_back(std::to_string(error));
+    outcome.warnings.push_back(plain_text(std::to_string(error)));
     return outcome;
 }
 

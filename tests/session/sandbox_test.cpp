@@ -40,7 +40,7 @@ int error_in_worker(const std::string& what, const fs::path& at = {}, const fs::
     Progress progress;
     const Outcome outcome =
         run_operation(act, {}, checked_arguments(act, arguments), progress, test_worker());
-    return std::stoi(outcome.warnings.at(0));
+    return std::stoi(text_of(outcome.warnings.at(0)));
 }
 
 /// Whether this build, kernel and container restrict workers; otherwise counts as skipped.
