@@ -8,6 +8,7 @@
 #include "geometry/image/resample.h"
 #include "geometry/image/separating_field.h"
 #include "geometry/image/shells.h"
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
 
@@ -69,7 +70,10 @@ void decide_method(ImageSource& source, const ExtractionParameters& parameters, 
         result.method = ExtractionMethod::Threshold;
     }
     if (result.method == ExtractionMethod::Masked && !source.mask)
-        throw InvalidInput("method=masked needs a mask: load the image with mask=");
+        throw DiagnosedInput(
+            {.code = "no-mask",
+             .operation = "extract-surface",
+             .remedies = {{.operation = "load-image", .arguments = {{"mask", ""}}}}});
     const bool level_set = result.method == ExtractionMethod::Threshold &&
                            judgement.kind == ImageKind::LevelSet &&
                            parameters.threshold.value_or(0.0) == 0.0;

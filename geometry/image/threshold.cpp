@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "geometry/image/clean_image.h"
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/statistics.h"
 
@@ -216,12 +217,14 @@ double bright_threshold(const Image& image, const Progress& progress) {
 double masked_threshold(const Image& image, const Image& mask, const Progress& progress) {
     const auto levels = layer_medians(image, mask, nullptr, progress);
     if (!levels)
-        throw InvalidInput(
-            "the mask contains no voxel, or all of them: check it, or give threshold=");
+        throw DiagnosedInput({.code = "mask-without-border",
+                              .operation = "extract-surface",
+                              .remedies = {{.arguments = {{"threshold", ""}}}}});
     if (!(levels->inside > levels->around))
-        throw InvalidInput(
-            "inside the mask the image is not brighter than around it: give "
-            "threshold= and inside=below, or method=labels");
+        throw DiagnosedInput({.code = "mask-not-brighter",
+                              .operation = "extract-surface",
+                              .remedies = {{.arguments = {{"threshold", ""}, {"inside", "below"}}},
+                                           {.arguments = {{"method", "labels"}}}}});
     return levels->middle();
 }
 

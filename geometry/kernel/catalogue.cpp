@@ -244,6 +244,88 @@ constexpr CatalogueText kTexts[] = {
      "more "
      "triangles, or decimate without weights"},
 
+    // What an operation refuses.
+    {"edge-out-of-proportion",
+     "an edge of {edge_mm} mm ({name}) is less than a millionth of the model; {fix} suits it"},
+    {"extrusion-too-long",
+     "an extrusion of '{opening}' by {length_mm} mm would make more than {most_millions:%g} "
+     "million "
+     "triangles: use {fix} or less"},
+    {"mask-without-border", "the mask contains no voxel, or all of them: check it, or give {fix}"},
+    {"mask-not-brighter",
+     "inside the mask the image is not brighter than around it: give {fix}, or use {fix2}"},
+    {"no-mask",
+     "intensities inside a mask are asked for, but there is no mask: load the image with one "
+     "({fix})"},
+    {"no-end-to-close", "no vessel ends near {place}, where one is to stay closed"},
+    {"no-end-near",
+     "no vessel ends near {given}, where {meant} is to be; the nearest end is at {place}"},
+    {"one-end-twice", "two inlets mean the same end, at {place}"},
+    {"cap-not-flat", "the cap '{cap}' is not flat: clip it first with {fix}"},
+    {"cap-not-a-disc",
+     "the cap '{cap}' is not a single disc with one rim: clip the vessel there again ({fix})"},
+    {"no-whole-section",
+     "the branch with its tip at {place} has no whole section before its furcation or its other "
+     "end: [remove it with {fix}][{advice}]"},
+    {"end-cannot-be-cut",
+     "the end at {place} cannot be cut: {why}; {fix} leaves it closed on purpose"},
+    {"end-cannot-be-opened", "the {end} at {place} cannot be opened: {why}"},
+    {"no-tip-near", "no branch has its tip near {given}; the nearest one is at {place}"},
+    {"no-end-to-open", "no vessel end that could be opened was found: give one with {fix}"},
+    {"branch-without-foot",
+     "the branch with its tip at {place} does not protrude from its parent: there is nothing to "
+     "remove"},
+    {"branch-is-trunk",
+     "the vessel with its tip at {place} is the trunk that the others leave: open it, or cut it "
+     "there, with {fix}"},
+    {"branch-too-wide",
+     "the branch with its tip at {place} is as wide as its parent vessel: cut it there with {fix} "
+     "instead"},
+    {"branch-too-large",
+     "the branch with its tip at {place} cannot be removed: {wall_percent:%.0f} % of the wall "
+     "would go with it"},
+    {"plane-misses-surface",
+     "the clipping plane at {place} does not meet the surface: give the distance from the tip, or "
+     "open the ends one by one ({fix})"},
+    {"plane-meets-border",
+     "the clipping plane at {place} meets an open border: clip farther away from the tip"},
+    {"cut-without-rim",
+     "the cut at {place} has no simple rim: repair the surface there, or clip elsewhere"},
+    {"cut-in-loop",
+     "the cut at {place} does not separate the branch from the rest: the vessels form a loop "
+     "there; clip one of the other branches as well, or choose another place"},
+    {"edges-too-fine",
+     "edges of {edge_mm} mm would make about {millions} million triangles, more than "
+     "{most_millions:%.0f} million; use {fix} or more"},
+    {"crosses-itself", "the surface intersects itself near {place}; use {fix} first"},
+    {"would-cross-itself",
+     "the remeshed surface would intersect itself near {place}; use a smaller {fix}, or separate "
+     "the walls that touch there"},
+    {"edges-too-coarse",
+     "edges of {edge_mm} mm are too coarse for this vessel: the volume would change from "
+     "{before_mm3:%.4g} to {after_mm3:%.4g} mm^3; use {fix}"},
+    {"surface-not-manifold", "the surface is not manifold; use {fix} first"},
+    {"print-not-a-solid", "3MF: the surface is not {property}; use {fix} first"},
+    {"print-has-holes",
+     "3MF: a print needs a closed surface, but this one has {holes#hole}, the first near {place}; "
+     "{fix} caps a vessel end, {fix2} closes a hole"},
+    {"no-inlet-and-outlet",
+     "flow conditions: the model has {inlets#inlet} and {outlets#outlet}, but needs one of each: "
+     "cut the vessel's ends with {fix}"},
+    {"improved-mesh-invalid", "the improved mesh is not valid ({reason}); use {fix}"},
+    {"not-filled",
+     "TetGen cannot fill the surface; tried:{attempts}\nuse {fix} and {fix2} first, with a smaller "
+     "edge length where walls are close"},
+    {"no-surface", "there is no surface: use {fix} first, or {fix2} and extract it"},
+    {"no-image", "there is no image: use {fix} first"},
+    {"nothing-to-crop", "nothing to crop: use {fix} or {fix2} first"},
+    {"no-opening-at-inlet",
+     "no opening is near the inlet given, {given}; the nearest one, {nearest}, is at {place}: open "
+     "the inlet's own end first ({fix})"},
+    {"no-tube",
+     "there is no vessel in it: nothing of the closed surface is 1.5 times as long as it is wide; "
+     "{fix}, the place of an end, opens it nevertheless"},
+
     // Products.
     {"cells-limited",
      "{wanted:%.0f} cells requested, {reached:%.0f} reached: the surface's edge length limits the "

@@ -88,7 +88,8 @@ std::string text_without_entry(const Diagnostic& diagnostic) {
 }  // namespace
 
 std::string plain_remedy(const Diagnostic& diagnostic, const Remedy& remedy) {
-    const bool own = remedy.operation.empty() || remedy.operation == diagnostic.operation;
+    const bool own =
+        !remedy.before && (remedy.operation.empty() || remedy.operation == diagnostic.operation);
     std::vector<std::string> words;
     if (!own || remedy.arguments.empty()) words.push_back(remedy.operation);
     for (const auto& [name, value] : remedy.arguments)

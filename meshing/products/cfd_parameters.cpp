@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <map>
 
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/wording.h"
@@ -85,10 +86,10 @@ FlowSummary flow_summary(const Surface& surface, const CfdParameters& parameters
                                   .diameter = 4.0 * area / rim_length(surface, k)});
     }
     if (summary.inlets.empty() || summary.outlets == 0)
-        throw AlgorithmFailure(
-            "flow conditions: the model has " + std::to_string(summary.inlets.size()) +
-            " inlet(s) and " + std::to_string(summary.outlets) +
-            " outlet(s), but needs one of each: cut the vessel's ends with `clip-opening`");
+        throw DiagnosedFailure({.code = "no-inlet-and-outlet",
+                                .figures = {{"inlets", static_cast<double>(summary.inlets.size())},
+                                            {"outlets", static_cast<double>(summary.outlets)}},
+                                .remedies = {{.operation = "clip-opening"}}});
     distribute_flow(parameters, summary.inlets);
     for (InletFlow& inlet : summary.inlets) {
         inlet.mean_velocity = inlet.flow / inlet.area;  // cm^3/s by mm^2 is m/s

@@ -1,5 +1,6 @@
 #include "meshing/products/threemf.h"
 
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/whole_file.h"
@@ -58,16 +59,17 @@ std::string model(const Surface& surface, LoopProgress rows) {
 void require_solid(const Surface& surface) {
     const Connectivity state = connectivity(*surface.topology);
     if (!state.manifold || !state.oriented)
-        throw InvalidInput("3MF: the surface is not " +
-                           std::string(state.manifold ? "oriented" : "manifold") +
-                           "; run `repair` first");
+        throw DiagnosedInput({.code = "print-not-a-solid",
+                              .words = {{"property", state.manifold ? "oriented" : "manifold"}},
+                              .remedies = {{.operation = "repair"}}});
     if (state.closed) return;
     const auto loops = surface.topology->boundary_loops();
-    throw InvalidInput("3MF: a print needs a closed surface, but this one has " +
-                       counted(loops.size(), "hole") + ", the first near " +
-                       place_text(surface.points()[loops.front().front()]) +
-                       "; `clip-opening` caps a vessel end, `fill-hole` closes a single hole, "
-                       "`repair` with close_holes_up_to all up to a size");
+    throw DiagnosedInput(
+        {.code = "print-has-holes",
+         .place = surface.points()[loops.front().front()],
+         .figures = {{"holes", static_cast<double>(loops.size())}},
+         .remedies = {
+             {.operation = "clip-opening"}, {.operation = "fill-hole"}, {.operation = "repair"}}});
 }
 
 }  // namespace

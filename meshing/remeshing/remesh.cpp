@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "geometry/kernel/argument_checks.h"
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/edges.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
@@ -117,10 +118,12 @@ void check_count(const Surface& surface, const std::vector<double>& sizes, doubl
     const double count = expected_count(surface, sizes);
     const auto most = static_cast<double>(Remesher::kMostTriangles);
     if (count <= most) return;
-    throw AlgorithmFailure(
-        formatted(edge, "edges of %.3g mm would make about ") + formatted(count / 1e6, "%.3g") +
-        formatted(most / 1e6, " million triangles, more than %.0f million; use edge=") +
-        formatted(1.1 * edge * std::sqrt(count / most), "%.2g") + " or more");
+    const double finest = 1.1 * edge * std::sqrt(count / most);
+    throw DiagnosedFailure(
+        {.code = "edges-too-fine",
+         .operation = "remesh",
+         .figures = {{"edge_mm", edge}, {"millions", count / 1e6}, {"most_millions", most / 1e6}},
+         .remedies = {{.arguments = {{"edge", formatted(finest, "%.2g")}}}}});
 }
 
 /// Edges that were not asked for become longer where they would make too many triangles.
@@ -178,15 +181,14 @@ void refine(const Surface& source, const Positions& places, double gradation,
 }
 
 [[noreturn]] void refuse_crossing(const Surface& source, const Surface& result) {
-    const auto describe = [](const Surface& surface, TriangleId t) {
-        return "near " + place_text(surface.points()[surface.triangles()[t][0]]);
-    };
-    if (const auto old = self_intersections(source); !old.empty())
-        throw AlgorithmFailure("the surface intersects itself " +
-                               describe(source, old.front().first) + "; use repair before remesh");
-    throw AlgorithmFailure("the remeshed surface would intersect itself " +
-                           describe(result, self_intersections(result).front().first) +
-                           "; use a smaller edge, or separate the walls that touch there");
+    const auto old = self_intersections(source);
+    const Surface& crossing = old.empty() ? result : source;
+    const TriangleId t = old.empty() ? self_intersections(result).front().first : old.front().first;
+    throw DiagnosedFailure({.code = old.empty() ? "would-cross-itself" : "crosses-itself",
+                            .operation = "remesh",
+                            .place = crossing.points()[crossing.triangles()[t][0]],
+                            .remedies = {old.empty() ? Remedy{.arguments = {{"edge", ""}}}
+                                                     : Remedy{.operation = "repair"}}});
 }
 
 /// Cutting crossings out may leave crumbs, which are dropped; a vessel would be larger than this
@@ -307,9 +309,13 @@ void check_extent(const Surface& surface, const RemeshParameters& parameters, do
                                      {"min_edge", parameters.min_edge},
                                      {"max_edge", parameters.max_edge}})
         if (edge && *edge < least)
-            throw AlgorithmFailure(
-                name + formatted(*edge, " = %.3g mm is less than a millionth of the model; ") +
-                formatted(kEdgePerRadius * usual_radius, "edge=%.2g suits it"));
+            throw DiagnosedFailure(
+                {.code = "edge-out-of-proportion",
+                 .operation = "remesh",
+                 .figures = {{"edge_mm", *edge}},
+                 .words = {{"name", name}},
+                 .remedies = {
+                     {.arguments = {{"edge", formatted(kEdgePerRadius * usual_radius, "%.2g")}}}}});
     // A max_edge longer than the model limits nothing.
     if (parameters.edge) require_in_proportion("edge", *parameters.edge, surface, 1.0);
     if (parameters.min_edge) require_in_proportion("min_edge", *parameters.min_edge, surface, 1.0);
@@ -354,11 +360,12 @@ void check_volume(const Surface& before, const Surface& after, RemeshReport& rep
     const double was = volume(before), is = volume(after);
     report.volume_change = was > 0.0 ? is / was - 1.0 : 0.0;
     if (std::abs(report.volume_change) <= kMostVolumeChange) return;
-    throw AlgorithmFailure(
-        formatted(report.edge,
-                  "edges of %.3g mm are too coarse for this vessel: the volume would ") +
-        formatted(was, "change from %.4g") + formatted(is, " to %.4g mm^3; use edge=") +
-        formatted(kEdgePerRadius * report.usual_radius, "%.2g"));
+    const double suitable = kEdgePerRadius * report.usual_radius;
+    throw DiagnosedFailure(
+        {.code = "edges-too-coarse",
+         .operation = "remesh",
+         .figures = {{"edge_mm", report.edge}, {"before_mm3", was}, {"after_mm3", is}},
+         .remedies = {{.arguments = {{"edge", formatted(suitable, "%.2g")}}}}});
 }
 
 }  // namespace

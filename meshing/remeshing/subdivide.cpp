@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/edges.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
@@ -44,7 +45,9 @@ Creases creases_of(const Surface& surface, const EdgeTable& table, Turns& turns)
         turns.next();
         const auto sides = table.half_edges.row(e);
         if (sides.size() > 2)
-            throw InvalidInput("subdivide needs a manifold surface; use repair first");
+            throw DiagnosedInput({.code = "surface-not-manifold",
+                                  .operation = "subdivide",
+                                  .remedies = {{.operation = "repair"}}});
         if (sides.size() == 2 && labels[sides[0] / 3] == labels[sides[1] / 3]) continue;
         creases.is_crease[e] = 1;
         const auto [a, b] = table.edges[e];

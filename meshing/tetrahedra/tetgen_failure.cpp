@@ -25,20 +25,23 @@ std::string tetgen_error_text(int code) {
     }
 }
 
-std::string tetgen_failure_text(const Surface& surface, std::span<const std::string> attempts,
-                                std::span<const TriangleId> intersecting) {
+Diagnostic tetgen_failure(const Surface& surface, std::span<const std::string> attempts,
+                          std::span<const TriangleId> intersecting) {
     constexpr std::size_t kMostListed = 5;
-    std::string text = "tetrahedralize: TetGen cannot fill the surface; tried:";
-    for (const std::string& attempt : attempts) text += "\n  " + attempt;
+    Diagnostic failure{.code = "not-filled",
+                       .operation = "tetrahedralize",
+                       .remedies = {{.operation = "repair"}, {.operation = "remesh"}}};
+    std::string tried;
+    for (const std::string& attempt : attempts) tried += "\n  " + attempt;
     for (const TriangleId t : intersecting.first(std::min(kMostListed, intersecting.size()))) {
         const auto& [a, b, c] = surface.triangles()[t];
         const Vec3 centre = (surface.points()[a] + surface.points()[b] + surface.points()[c]) / 3.0;
-        text += "\n  facet " + std::to_string(t) + " at " + place_text(centre) +
-                " intersects another one";
+        if (!failure.place) failure.place = centre;
+        tried += "\n  facet " + std::to_string(t) + " at " + place_text(centre) +
+                 " intersects another one";
     }
-    return text +
-           "\nrun `repair` and `remesh` before it, with a smaller edge length where walls are "
-           "close";
+    failure.words["attempts"] = tried;
+    return failure;
 }
 
 }  // namespace vesselbench

@@ -3,6 +3,7 @@
 #include <span>
 #include <string>
 
+#include "geometry/kernel/diagnostic.h"
 #include "geometry/kernel/surface.h"
 
 namespace vesselbench {
@@ -13,8 +14,8 @@ namespace vesselbench {
 /// Why a surface cannot be filled: what was tried, where it fails, and the remedy.
 /// \param attempts a line for each
 /// \param intersecting triangles that intersect others; the first five are listed with their places
-[[nodiscard]] std::string tetgen_failure_text(const Surface& surface,
-                                              std::span<const std::string> attempts,
-                                              std::span<const TriangleId> intersecting);
+[[nodiscard]] Diagnostic tetgen_failure(const Surface& surface,
+                                        std::span<const std::string> attempts,
+                                        std::span<const TriangleId> intersecting);
 
 }  // namespace vesselbench

@@ -172,8 +172,8 @@ public:
             report_.raw = volume_quality(result.mesh, faces);
             return std::move(result.mesh);
         }
-        throw AlgorithmFailure(
-            tetgen_failure_text(surface_, report_.attempts, tetgen_intersecting_facets(surface_)));
+        throw DiagnosedFailure(
+            tetgen_failure(surface_, report_.attempts, tetgen_intersecting_facets(surface_)));
     }
 
     // Distribution of the lumen's volume over the target sizes: samples of a coarse filling.
@@ -291,8 +291,10 @@ TetrahedralizeResult tetrahedralized(const Surface& given,
     const std::vector<MeshFace> faces = mesh_faces(result.mesh, neighbours);
     const std::string lost = loss(result.mesh, faces, surface, result.report.surface_kept);
     if (!lost.empty())
-        throw AlgorithmFailure("tetrahedralize: the improved mesh is not valid (" + lost +
-                               "); use improve=0");
+        throw DiagnosedFailure({.code = "improved-mesh-invalid",
+                                .operation = "tetrahedralize",
+                                .words = {{"reason", lost}},
+                                .remedies = {{.arguments = {{"improve", "0"}}}}});
     if (!result.report.surface_kept) result.report.warnings.push_back({.code = "surface-divided"});
     result.report.quality = volume_quality(result.mesh, faces);
     if (parameters.cells) warn_of_number(*parameters.cells, result.report);

@@ -261,7 +261,7 @@ SCENARIO("Ends are named by their numbers, and stored as places", "[workbench][o
     CHECK_THROWS_WITH(run("clip-opening", surface, {{"close_ends", std::vector<double>{9}}}),
                       Contains("there is no end 9"));
     CHECK_THROWS_WITH(run("clip-opening", surface, {{"open", std::vector<double>{90, 0, 0}}}),
-                      Contains("no vessel ends near open=90,0,0"));
+                      Contains("no vessel ends near (90, 0, 0) mm"));
     CHECK_THROWS_AS(run("clip-opening", surface, {{"open", std::vector<double>{16, 0}}}),
                     UsageError);
 }
@@ -275,7 +275,7 @@ SCENARIO("The inlet beside one end is an opening that the point is at", "[workbe
     GIVEN("a point at another end, which is not open") {
         CHECK_THROWS_WITH(
             clipped(tube, Vec3(0, 0, 30), {0, 0, 0}),
-            Contains("no opening is near inlet=0,0,0; the nearest one, inlet, is at"));
+            Contains("near the inlet given, (0, 0, 0); the nearest one, inlet, is at"));
     }
     GIVEN("the tip itself, far from the cut") {
         const Outcome one = clipped(tube, Vec3(0, 0, 30), {0, 0, 30});

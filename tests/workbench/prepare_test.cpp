@@ -445,7 +445,7 @@ SCENARIO("A print model is closed where its end could not be opened", "[workbenc
         run({"prepare", folder + "/bowl.stl", "--units", "mm", "--for", "rp", "--out", out});
     INFO(result.err);
     REQUIRE(result.exit_code == 0);
-    CHECK_THAT(result.err, Contains("clip-opening was skipped") && Contains("fill-hole"));
+    CHECK_THAT(result.err, Contains("clip-opening: the step was skipped") && Contains("fill-hole"));
     const ProgramRun measured = run({"measure", out + "/print.stl", "--json"});
     CHECK(Json::parse(measured.out)["closed"] == true);
 }

@@ -64,7 +64,7 @@ SCENARIO("remesh: the edge that it recommends can be made", "[workbench][remedie
 SCENARIO("remesh and subdivide: repair makes the surface usable", "[workbench][remedies]") {
     // Two bodies that run through each other.
     const Surface crossing = merged(icosphere(3.0, 3), icosphere(3.0, 3, Vec3(2.0, 0.4, 0.3)));
-    REQUIRE_THAT(refusal_of("remesh", crossing), Contains("use repair before remesh"));
+    REQUIRE_THAT(refusal_of("remesh", crossing), Contains("use repair first"));
     CHECK(is_closed_manifold(after("remesh", after("repair", crossing))));
     Surface doubled = merged(open_tube(2.0, 12.0, 24, 20), open_tube(2.0, 12.0, 24, 20));
     const Surface fixed = after("repair", doubled);
@@ -75,7 +75,7 @@ SCENARIO("extrude-opening and tetrahedralize: clip-opening makes the openings",
          "[workbench][remedies]") {
     const Surface tube = open_tube(2.0, 30.0, 40, 90);
     CHECK_THAT(refusal_of("extrude-opening", tube), Contains("make them first (clip-opening)"));
-    CHECK_THAT(refusal_of("tetrahedralize", tube), Contains("`clip-opening` makes caps"));
+    CHECK_THAT(refusal_of("tetrahedralize", tube), Contains("clip-opening makes caps"));
     const Surface clipped = after("clip-opening", tube);
     CHECK(volume(after("extrude-opening", clipped)) > 1.1 * volume(clipped));
     CHECK(run("tetrahedralize", clipped, {}).scene.volume_mesh);

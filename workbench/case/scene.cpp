@@ -2,14 +2,16 @@
 
 #include <utility>
 
-#include "geometry/kernel/errors.h"
+#include "geometry/kernel/diagnosed_error.h"
 
 namespace vesselbench {
 
 const Surface& surface_of(const Scene& scene) {
     if (!scene.surface || scene.surface->empty())
-        throw AlgorithmFailure(
-            "there is no surface: use load-surface first, or load-image and extract-surface");
+        throw DiagnosedFailure({.code = "no-surface",
+                                .remedies = {{.operation = "load-surface"},
+                                             {.operation = "load-image"},
+                                             {.operation = "extract-surface"}}});
     return *scene.surface;
 }
 

@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/image/crop_image.h"
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/vessel/openings/crop_surface.h"
 #include "workbench/operations/table.h"
@@ -51,7 +52,10 @@ Surface cropped(const Surface& surface, const Region& region) {
 Outcome crop(const Scene& scene, const Arguments& arguments, Progress& progress) {
     const Region region = region_from(arguments);
     if (!scene.image && !scene.surface)
-        throw AlgorithmFailure("nothing to crop: use load-image or load-surface first");
+        throw DiagnosedFailure(
+            {.code = "nothing-to-crop",
+             .operation = "crop",
+             .remedies = {{.operation = "load-image"}, {.operation = "load-surface"}}});
     Outcome outcome;
     outcome.scene = scene;
     outcome.resolved = arguments;

@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/kernel/errors.h"
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/wording.h"
 #include "workbench/case/measure_json.h"
@@ -23,7 +23,10 @@ namespace {
 constexpr double kNoticeable = 0.05;
 
 const Image& image_of(const Scene& scene) {
-    if (!scene.image) throw AlgorithmFailure("there is no image: use load-image first");
+    if (!scene.image)
+        throw DiagnosedFailure({.code = "no-image",
+                                .operation = "extract-surface",
+                                .remedies = {{.operation = "load-image"}}});
     return *scene.image;
 }
 

@@ -231,7 +231,7 @@ PrepareSummary write_results(Session& session, const PrepareOptions& options, Pr
     return {prepared.products, report.warnings};
 }
 
-/// report.json of a preparation that stopped.
+/// report.json of a preparation that stopped, and how to go on.
 void write_refusal(const PrepareOptions& options, const DiagnosedFailure& failure,
                    const Teller& tell) {
     const std::vector<std::string> names = {"report.json"};
@@ -240,6 +240,8 @@ void write_refusal(const PrepareOptions& options, const DiagnosedFailure& failur
     const Json report =
         refusal_json(options, failure, remaining_results(options.out, names, earlier));
     write_file(options.out / names.front(), text_from_json(printable_json(report), 2) + "\n");
+    tell(std::string("the completed edits are kept in ") + kProject +
+         "; report.json has what was found; --resume goes on there, also after an edit by hand");
 }
 
 /// \throw AlgorithmFailure if the project's file cannot be made whole
@@ -320,10 +322,10 @@ PrepareSummary prepare(const PrepareOptions& options, const Teller& tell,
         if (!any_edit) session.discard();
         throw;
     } catch (const DiagnosedFailure& failure) {
-        write_refusal(options, failure, tell);
-        tell(
-            "the completed edits are kept in " + project.filename().string() +
-            "; report.json has what was found; --resume goes on there, also after an edit by hand");
+        if (any_edit)
+            write_refusal(options, failure, tell);
+        else
+            session.discard();
         throw;
     } catch (const std::exception&) {
         if (!any_edit)

@@ -50,11 +50,23 @@ Json commands_of(const PrepareOptions& options, const Remedy& remedy) {
     return commands;
 }
 
+/// True if it can be given as it is: to the step that failed, or as an edit before it.
+bool has_commands(const Diagnostic& diagnostic, const Remedy& remedy) {
+    const bool own = remedy.operation.empty() || remedy.operation == diagnostic.operation;
+    return (own || remedy.before) && !remedy.arguments.empty() &&
+           std::ranges::none_of(remedy.arguments,
+                                [](const auto& argument) { return argument.second.empty(); });
+}
+
 /// With the commands of each remedy.
 Json with_commands(const PrepareOptions& options, const Diagnostic& diagnostic) {
     Json json = diagnostic_json(diagnostic);
-    for (std::size_t i = 0; i < diagnostic.remedies.size(); ++i)
-        json["remedies"][i]["commands"] = commands_of(options, diagnostic.remedies[i]);
+    for (std::size_t i = 0; i < diagnostic.remedies.size(); ++i) {
+        Remedy remedy = diagnostic.remedies[i];
+        if (!has_commands(diagnostic, remedy)) continue;
+        if (remedy.operation.empty()) remedy.operation = diagnostic.operation;
+        json["remedies"][i]["commands"] = commands_of(options, remedy);
+    }
     return json;
 }
 

@@ -4,7 +4,7 @@
 
 #include "geometry/editing/plane_cut.h"
 #include "geometry/editing/rims.h"
-#include "geometry/kernel/errors.h"
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/wording.h"
 
 namespace vesselbench {
@@ -12,13 +12,13 @@ namespace vesselbench {
 OpenedSurface cut_branch(const Surface& surface, const Plane& plane) {
     auto curve = cross_section_at(surface, plane);
     if (!curve)
-        throw AlgorithmFailure(
-            "the clipping plane at " + place_text(plane.point) +
-            " does not meet the surface: give the distance from the tip, or open the "
-            "ends one by one (tip=x,y,z)");
+        throw DiagnosedFailure({.code = "plane-misses-surface",
+                                .operation = "clip-opening",
+                                .place = plane.point,
+                                .remedies = {{.arguments = {{"tip", ""}}}}});
     if (!curve->closed)
-        throw AlgorithmFailure("the clipping plane at " + place_text(plane.point) +
-                               " meets an open border: clip farther away from the tip");
+        throw DiagnosedFailure(
+            {.code = "plane-meets-border", .operation = "clip-opening", .place = plane.point});
     // Moving vertices may pinch the rim on a bad mesh; cutting without moving never does.
     bool separates = true;
     for (const NearVertices near : {NearVertices::MoveOntoPlane, NearVertices::Stay}) {
@@ -33,13 +33,9 @@ OpenedSurface cut_branch(const Surface& surface, const Plane& plane) {
         clean_rim(opened.surface, opened.rim);
         return opened;
     }
-    if (!separates)
-        throw AlgorithmFailure("the cut at " + place_text(plane.point) +
-                               " does not separate the branch from the rest: the vessels form a "
-                               "loop there; clip one of the other branches as well, or choose "
-                               "another place");
-    throw AlgorithmFailure("the cut at " + place_text(plane.point) +
-                           " has no simple rim: repair the surface there, or clip elsewhere");
+    throw DiagnosedFailure({.code = separates ? "cut-without-rim" : "cut-in-loop",
+                            .operation = "clip-opening",
+                            .place = plane.point});
 }
 
 void cap_rim(OpenedSurface& opened, const Plane& plane, const Patch& patch) {

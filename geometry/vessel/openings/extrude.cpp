@@ -10,6 +10,7 @@
 #include "geometry/editing/editable_surface.h"
 #include "geometry/editing/rims.h"
 #include "geometry/kernel/argument_checks.h"
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/openings/collision.h"
@@ -168,9 +169,13 @@ void check(const Surface& surface, std::size_t patch, const PatchShape& shape,
         throw InvalidInput("the patch '" + surface.patches[patch].name +
                            "' is wall: only a cap can be extruded");
     if (shape.flatness > kLargestFlatness * shape.diameter())
-        throw AlgorithmFailure("the cap '" + surface.patches[patch].name +
-                               "' is not flat: clip it first with clip-opening tip=" +
-                               coordinates_argument(shape.plane.point));
+        throw DiagnosedFailure(
+            {.code = "cap-not-flat",
+             .operation = "extrude-opening",
+             .place = shape.plane.point,
+             .words = {{"cap", surface.patches[patch].name}},
+             .remedies = {{.operation = "clip-opening",
+                           .arguments = {{"tip", coordinates_argument(shape.plane.point)}}}}});
 }
 
 class Extruder {
@@ -232,11 +237,13 @@ Extrusion extrude_opening(const Surface& surface, std::size_t patch,
     used.length = height;
     const Tube wanted(profile, shape.plane, used);
     if (const double most = way * wanted.length_of(kMostTriangles); parameters.length > most)
-        throw AlgorithmFailure(
-            "an extrusion of '" + surface.patches[patch].name + "' by " +
-            formatted(parameters.length) +
-            formatted(kMostTriangles / 1e6, " mm would make more than %g million triangles: ") +
-            formatted(most, "use length=%.3g or less"));
+        throw DiagnosedFailure(
+            {.code = "extrusion-too-long",
+             .operation = "extrude-opening",
+             .place = shape.plane.point,
+             .figures = {{"length_mm", parameters.length}, {"most_millions", kMostTriangles / 1e6}},
+             .words = {{"opening", surface.patches[patch].name}},
+             .remedies = {{.arguments = {{"length", formatted(most)}}}}});
     const Surface rest = extruder.without_cap();
     if (parameters.may_shorten)
         used.length = std::min(height, free_length(rest, wanted, height, 1.0));

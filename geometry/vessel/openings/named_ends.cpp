@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "geometry/kernel/errors.h"
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/wording.h"
 
 namespace vesselbench {
@@ -18,16 +18,20 @@ std::size_t end_meant(const std::vector<SurfaceEnd>& ends, const Vec3& point,
     if (const auto end = end_near(ends, point)) return *end;
     const auto nearest = std::ranges::min_element(
         ends, {}, [&](const SurfaceEnd& e) { return (e.centre - point).norm(); });
-    throw AlgorithmFailure("no vessel ends near " + parameter + "=" + coordinates_argument(point) +
-                           "; the nearest end is at " + place_text(nearest->centre));
+    throw DiagnosedFailure({.code = "no-end-near",
+                            .operation = "clip-opening",
+                            .place = nearest->centre,
+                            .words = {{"meant", parameter == "inlet" ? "the inlet" : "an opening"},
+                                      {"given", place_text(point)}}});
 }
 
 void name_inlets(PlanDraft& draft) {
     for (const Vec3& point : draft.options().inlets) {
         const std::size_t end = end_meant(draft.ends(), point, "inlet");
         if (draft.is_inlet(end))
-            throw AlgorithmFailure("two inlets mean the same end, at " +
-                                   place_text(draft.ends()[end].centre));
+            throw DiagnosedFailure({.code = "one-end-twice",
+                                    .operation = "clip-opening",
+                                    .place = draft.ends()[end].centre});
         draft.name_inlet(end);
     }
 }
@@ -56,7 +60,8 @@ void leave_closed(PlanDraft& draft) {
         }
         const auto end = end_near(draft.ends(), point);
         if (!end)
-            throw AlgorithmFailure("no vessel ends near closed=" + coordinates_argument(point));
+            throw DiagnosedFailure(
+                {.code = "no-end-to-close", .operation = "clip-opening", .place = point});
         draft.record(*end).asked = true;
         draft.close(*end, "left closed as asked");
     }

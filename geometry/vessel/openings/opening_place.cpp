@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
@@ -259,16 +260,22 @@ private:
     throw AlgorithmFailure("the branch with its tip at " + place_text(tip) + " " + why);
 }
 
+[[noreturn]] void fail_without_section(const Vec3& tip, bool side_branch) {
+    Diagnostic found{.code = "no-whole-section", .place = tip};
+    if (side_branch)
+        found.remedies = {
+            {.operation = "remove-branch", .arguments = {{"tip", coordinates_argument(tip)}}}};
+    else
+        found.words["advice"] = "give the distance from its tip";
+    throw DiagnosedFailure(std::move(found));
+}
+
 /// The first whole section from the tip.
 double first_whole(const BranchFromEnd& branch, bool blind, const Vec3& tip) {
     const double utmost = blind ? branch.reach_of_cut() : branch.utmost_cut();
     double first = 0.5 * kSearchStep * branch.radius;
     while (first < utmost && !branch.is_whole(first, blind)) first += kSearchStep * branch.radius;
-    if (first >= utmost)
-        fail(tip, "has no whole section before its furcation or its other end: " +
-                      std::string(branch.is_side_branch() ? "remove it with remove-branch tip=" +
-                                                                coordinates_argument(tip)
-                                                          : "give the distance from its tip"));
+    if (first >= utmost) fail_without_section(tip, branch.is_side_branch());
     return first;
 }
 

@@ -4,6 +4,7 @@
 #include <functional>
 #include <numeric>
 
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
@@ -76,9 +77,12 @@ private:
         if (!is_to_open(e)) return draft_.close(e, closed_text(draft_.verdict(e)));
         if (opener_.cut(e)) return;
         if (draft_.options().strict)
-            throw AlgorithmFailure(
-                "the end at " + place_text(end.centre) + " cannot be cut: " + draft_.record(e).why +
-                "; closed=" + coordinates_argument(end.centre) + " leaves it closed on purpose");
+            throw DiagnosedFailure(
+                {.code = "end-cannot-be-cut",
+                 .operation = "clip-opening",
+                 .place = end.centre,
+                 .words = {{"why", draft_.record(e).why}},
+                 .remedies = {{.arguments = {{"closed", coordinates_argument(end.centre)}}}}});
         if (!draft_.is_fixed() && opener_.is_stub(e)) return draft_.remove_stub(e);
         draft_.record(e).tried = true;
         draft_.close(e, draft_.record(e).why);
@@ -88,10 +92,11 @@ private:
     void require_wanted() {
         for (std::size_t e = 0; e < draft_.ends().size(); ++e)
             if (draft_.is_wanted(e) && !draft_.is_open(e))
-                throw AlgorithmFailure(std::string("the ") +
-                                       (draft_.is_inlet(e) ? "inlet" : "end") + " at " +
-                                       place_text(draft_.ends()[e].centre) +
-                                       " cannot be opened: " + draft_.record(e).why);
+                throw DiagnosedFailure({.code = "end-cannot-be-opened",
+                                        .operation = "clip-opening",
+                                        .place = draft_.ends()[e].centre,
+                                        .words = {{"end", draft_.is_inlet(e) ? "inlet" : "end"},
+                                                  {"why", draft_.record(e).why}}});
     }
 
     PlanDraft& draft_;
@@ -125,8 +130,10 @@ std::size_t tip_to_open(const CenterlineGraph& graph, const Vec3& point) {
     if (!tip) throw AlgorithmFailure("the vessels have no tip that could be opened");
     const Vec3& found = graph.nodes[*tip].position;
     if ((found - point).norm() > kFarthestTip * tip_radius(graph, *tip))
-        throw AlgorithmFailure("no branch has its tip near " + place_text(point) +
-                               "; the nearest one is at " + place_text(found));
+        throw DiagnosedFailure({.code = "no-tip-near",
+                                .operation = "clip-opening",
+                                .place = found,
+                                .words = {{"given", place_text(point)}}});
     return *tip;
 }
 
@@ -156,8 +163,9 @@ OpeningPlan plan_openings(const Surface& surface, const LinesWithoutFrays& lines
     PlanDraft draft(surface, lines, options, progress);
     Planner planner(draft, progress);
     if (draft.ends().empty())
-        throw AlgorithmFailure(
-            "no vessel end that could be opened was found: give one with tip=x,y,z");
+        throw DiagnosedFailure({.code = "no-end-to-open",
+                                .operation = "clip-opening",
+                                .remedies = {{.arguments = {{"tip", ""}}}}});
     if (options.tip)
         planner.plan_one(end_of_tip(draft.ends(), tip_to_open(lines.graph, *options.tip)));
     else

@@ -3,16 +3,16 @@
 #include <algorithm>
 #include <map>
 
-#include "geometry/kernel/errors.h"
+#include "geometry/kernel/diagnosed_error.h"
 
 namespace vesselbench {
 
 namespace {
 
 [[noreturn]] void fail(const Surface& surface, std::size_t patch) {
-    throw AlgorithmFailure(
-        "the cap '" + surface.patches.at(patch).name +
-        "' is not a single disc with one rim: clip the vessel there again (clip-opening)");
+    throw DiagnosedFailure({.code = "cap-not-a-disc",
+                            .words = {{"cap", surface.patches.at(patch).name}},
+                            .remedies = {{.operation = "clip-opening"}}});
 }
 
 }  // namespace

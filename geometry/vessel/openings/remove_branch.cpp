@@ -11,6 +11,7 @@
 
 #include "geometry/editing/editable_surface.h"
 #include "geometry/editing/hole_filling.h"
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/shortest_paths.h"
@@ -249,8 +250,8 @@ std::vector<std::uint8_t> triangles_to_remove(const Surface& surface, const Bran
     const Foot foot(surface, root);
     auto vertices = foot.branch_vertices(tip);
     if (vertices.empty())
-        throw AlgorithmFailure("the branch with its tip at " + place_text(tip) +
-                               " does not protrude from its parent: there is nothing to remove");
+        throw DiagnosedFailure(
+            {.code = "branch-without-foot", .operation = "remove-branch", .place = tip});
     vertices = foot.with_fillet(std::move(vertices),
                                 kWidestFillet * std::min(root.branch_radius, root.parent_radius));
     const auto chosen = foot.widened(
@@ -263,31 +264,32 @@ std::vector<std::uint8_t> triangles_to_remove(const Surface& surface, const Bran
     return removed;
 }
 
+/// Of a vessel that can be cut, but not removed. \param code "branch-is-trunk", "branch-too-wide"
+Diagnostic not_removable(const char* code, const Vec3& tip) {
+    return {.code = code,
+            .operation = "remove-branch",
+            .place = tip,
+            .remedies = {
+                {.operation = "clip-opening", .arguments = {{"tip", coordinates_argument(tip)}}}}};
+}
+
 }  // namespace
 
 BranchRemoval remove_branch(const Surface& surface, const CenterlineGraph& graph, std::size_t tip,
                             const BranchRemovalParameters& parameters) {
     const BranchRoot root = branch_root(graph, tip);
     const Vec3 at = graph.nodes[tip].position;
-    if (is_trunk(graph, tip))
-        throw AlgorithmFailure("the vessel with its tip at " + place_text(at) +
-                               " is the trunk that the others leave: open it, or cut it there, "
-                               "with clip-opening tip=" +
-                               coordinates_argument(at));
+    if (is_trunk(graph, tip)) throw DiagnosedFailure(not_removable("branch-is-trunk", at));
     auto removed = triangles_to_remove(surface, root, at, parameters.margin);
     const auto rim = single_rim(surface, removed);
-    if (rim.size() < 3)
-        throw AlgorithmFailure(
-            "the branch with its tip at " + place_text(at) +
-            " is as wide as its parent vessel: cut it there with clip-opening tip=" +
-            coordinates_argument(at) + " instead");
+    if (rim.size() < 3) throw DiagnosedFailure(not_removable("branch-too-wide", at));
     BranchRemoval result{.mouth = root.mouth, .removed_area = area_of(surface, removed)};
     // Where vessels touch, what lies behind a rim may be all the rest.
     if (const double share = result.removed_area / area(surface); share > kMostRemoved)
-        throw AlgorithmFailure(
-            "the branch with its tip at " + place_text(at) +
-            formatted(100.0 * share, " cannot be removed: %.0f %% of the wall ") +
-            "would go with it");
+        throw DiagnosedFailure({.code = "branch-too-large",
+                                .operation = "remove-branch",
+                                .place = at,
+                                .figures = {{"wall_percent", 100.0 * share}}});
     EditableSurface edited(surface);
     edited.remove(removed);
     std::optional<HoleChart> chart;

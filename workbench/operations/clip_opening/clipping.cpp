@@ -58,10 +58,14 @@ Vec3 inlet_meant(const Surface& surface, const OpeningPlan& plan, const Vec3& po
         const double reach = kFarthestInlet * patch_shape(surface, *patch).diameter();
         if ((opening.place.tip - point).norm() <= reach) return at;
     }
-    throw AlgorithmFailure(
-        "no opening is near inlet=" + coordinates_argument(point) + "; the nearest one, " +
-        surface.patches[*nearest].name + ", is at " + place_text(shape.plane.point) +
-        ": open the inlet's own end first (clip-opening tip=" + coordinates_argument(point) + ")");
+    throw DiagnosedFailure(
+        {.code = "no-opening-at-inlet",
+         .operation = "clip-opening",
+         .place = shape.plane.point,
+         .words = {{"given", coordinates_text(point)}, {"nearest", surface.patches[*nearest].name}},
+         .remedies = {{.operation = "clip-opening",
+                       .arguments = {{"tip", coordinates_argument(point)}},
+                       .before = true}}});
 }
 
 /// The surface with the openings near some points as its inlets.
@@ -75,9 +79,9 @@ Surface with_inlets(const Surface& surface, const OpeningPlan& plan, Positions p
 void require_tube(const Surface& surface, const CenterlineGraph& graph) {
     if (surface.patches.size() == 1 && surface.topology->boundary_loops().empty() &&
         !has_tube(graph))
-        throw AlgorithmFailure(
-            "there is no vessel in it: nothing of the closed surface is 1.5 times as long "
-            "as it is wide; tip=x,y,z opens it nevertheless");
+        throw DiagnosedFailure({.code = "no-tube",
+                                .operation = "clip-opening",
+                                .remedies = {{.arguments = {{"tip", ""}}}}});
 }
 
 [[noreturn]] void give_up(const FailedCut& failed, const OpeningPlanOptions& options) {
