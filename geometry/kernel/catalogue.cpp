@@ -390,6 +390,19 @@ constexpr CatalogueText kTexts[] = {
      "it would take {volume_percent:%.0f} % of the volume: the triangles are too coarse for the "
      "vessel; make them finer with {fix}"},
     {"recipe-unusable", "the recipe of the case cannot be used, the usual one is: {reason}"},
+    {"read-in-another-unit",
+     "the input was read in {was}, not in {wanted}: prepare it without a unit[{advice}][; another "
+     "unit is a change of the edit that read it:\n{fix}, then --resume]"},
+    {"edit-no-longer-applies",
+     "edit {number} {name} no longer applies after an earlier edit was changed: {why}; change its "
+     "arguments, remove it, or\n{fix}, then --resume: it chooses again what it chose by itself"},
+    {"set-too-late",
+     "--set '{setting}': {name} has been made already[; to change it:\n{fix}, then --resume]"},
+    {"opening-in-wall",
+     "the opening '{opening}' at {place} lies in a vessel's side: the end has to stay "
+     "closed[\n{fix}, then --resume]"},
+    {"vessels-lost",
+     "the model has lost vessels:{vessels}[\nlost by edit {by}:\n{fix}, then --resume]"},
     {"step-skipped", "the step was skipped: {why}"},
     {"made-otherwise", "it was made with {arguments} instead: {why}"},
     {"thin-vessels-missing",

@@ -11,6 +11,13 @@
 
 namespace vesselbench {
 
+/// What becomes of an operation or an edit.
+enum class RemedyAction {
+    Give,        ///< it gets the arguments
+    Remove,      ///< the edit is left out
+    ChooseAgain  ///< the edit decides again what it decided by itself
+};
+
 /// What would solve a problem: an operation and its arguments, by the names of the operations'
 /// table.
 struct Remedy {
@@ -18,6 +25,7 @@ struct Remedy {
     std::map<std::string, std::string> arguments = {};  ///< without a value: choose one
     /// It is an edit of its own that comes first; what was refused is tried again after it.
     bool before = false;
+    RemedyAction action = RemedyAction::Give;
 
     bool operator==(const Remedy&) const = default;
 };

@@ -90,6 +90,12 @@ std::string text_without_entry(const Diagnostic& diagnostic) {
 std::string plain_remedy(const Diagnostic& diagnostic, const Remedy& remedy) {
     const bool own =
         !remedy.before && (remedy.operation.empty() || remedy.operation == diagnostic.operation);
+    if (remedy.action != RemedyAction::Give) {
+        const std::string edit =
+            diagnostic.edit ? "edit " + std::to_string(*diagnostic.edit) : "the edit";
+        return remedy.action == RemedyAction::Remove ? "removing " + edit
+                                                     : "letting " + edit + " choose again";
+    }
     std::vector<std::string> words;
     if (!own || remedy.arguments.empty()) words.push_back(remedy.operation);
     for (const auto& [name, value] : remedy.arguments)

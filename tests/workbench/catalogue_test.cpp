@@ -126,6 +126,19 @@ SCENARIO("A diagnostic is worded for those who read it", "[workbench][catalogue]
         CHECK_THAT(worded(doubt, {.project = "p", .preparing = true}),
                    Contains("`vesselbench apply p clip-opening open=1,2,3`, then --resume, opens"));
     }
+    THEN("an edit can be removed, or choose again") {
+        Diagnostic stale{.code = "edit-no-longer-applies",
+                         .operation = "remesh",
+                         .edit = 4,
+                         .words = {{"number", "4"}, {"name", "remesh"}, {"why", "so"}},
+                         .remedies = {{.action = RemedyAction::ChooseAgain}}};
+        CHECK_THAT(worded(stale, {.project = "p"}), Contains("`vesselbench change p 4 --anew`"));
+        stale.remedies[0].action = RemedyAction::Remove;
+        CHECK_THAT(worded(stale, {.project = "p"}), Contains("`vesselbench remove p 4`"));
+        CHECK_THAT(worded(stale, {.window = true}), Contains("removing edit 4"));
+        CHECK(diagnostic_from(diagnostic_json(stale), "it").remedies[0].action ==
+              RemedyAction::Remove);
+    }
     THEN("a number agrees with its noun, and what is not known is left out") {
         Diagnostic walls{
             .code = "brush-crosses-walls", .place = Vec3(1, 2, 3), .figures = {{"vertices", 1.0}}};

@@ -81,10 +81,11 @@ std::vector<std::string> options_in(const std::string& error) {
     return {std::istream_iterator<std::string>(words), {}};
 }
 
-/// Runs the command that an error names: "vesselbench change out/project.vbench 4 edge=0.3, then".
+/// Runs the command that an error names: "`vesselbench change out/project.vbench 4 edge=0.3`,
+/// then".
 ProgramRun followed(const std::string& error) {
     std::smatch found;
-    REQUIRE(std::regex_search(error, found, std::regex("\nvesselbench (.+), then --resume")));
+    REQUIRE(std::regex_search(error, found, std::regex("\n`vesselbench (.+)`, then --resume")));
     std::istringstream words(found[1]);
     std::vector<std::string> command{std::istream_iterator<std::string>(words), {}};
     return run(command);

@@ -34,11 +34,24 @@ std::map<std::string, T> map_from(const Json* json, const std::string& place) {
     return values;
 }
 
+std::string name_of(RemedyAction action) {
+    return action == RemedyAction::Give     ? "give"
+           : action == RemedyAction::Remove ? "remove"
+                                            : "choose-again";
+}
+
+RemedyAction action_from(const std::string& name, const std::string& place) {
+    for (const auto action : {RemedyAction::Give, RemedyAction::Remove, RemedyAction::ChooseAgain})
+        if (name == name_of(action)) return action;
+    throw InvalidInput(place + " must be give, remove or choose-again");
+}
+
 Json remedy_json(const Diagnostic& diagnostic, const Remedy& remedy) {
     const bool own = remedy.operation.empty();
     Json json = {{"operation", own ? diagnostic.operation : remedy.operation},
                  {"arguments", remedy.arguments}};
     if (remedy.before) json["before"] = true;
+    if (remedy.action != RemedyAction::Give) json["action"] = name_of(remedy.action);
     return json;
 }
 
@@ -48,6 +61,8 @@ Remedy remedy_from(const Json& json, const std::string& place) {
     remedy.arguments =
         map_from<std::string>(fields.child("arguments"), fields.place_of("arguments"));
     fields.read("before", remedy.before);
+    if (const auto action = fields.optional<std::string>("action"))
+        remedy.action = action_from(*action, fields.place_of("action"));
     return remedy;
 }
 

@@ -31,6 +31,7 @@ std::string field_text(const std::string& name, const std::string& value) {
 }
 
 std::string window_remedy(const Diagnostic& diagnostic, const Remedy& remedy) {
+    if (remedy.action != RemedyAction::Give) return plain_remedy(diagnostic, remedy);
     std::vector<std::string> fields;
     for (const auto& [name, value] : remedy.arguments) fields.push_back(field_text(name, value));
     if (is_own(diagnostic, remedy) && !fields.empty()) return joined(fields);
@@ -46,20 +47,31 @@ std::string argument_words(const Remedy& remedy, const std::string& prefix = "")
     return joined(words, prefix.empty() ? " " : " --set ");
 }
 
+/// For an edit that is known: "vesselbench change case.vbench 4 edge=0.2".
+std::string edit_command(const Remedy& remedy, const std::string& project, std::int64_t edit) {
+    const bool remove = remedy.action == RemedyAction::Remove;
+    std::string command = std::string("vesselbench ") + (remove ? "remove " : "change ") +
+                          shell_quoted(project) + " " + std::to_string(edit);
+    if (remove) return command;
+    return command + " " +
+           (remedy.action == RemedyAction::ChooseAgain ? "--anew" : argument_words(remedy));
+}
+
 std::string command_remedy(const Diagnostic& diagnostic, const Remedy& remedy,
                            const Audience& audience) {
     const std::string operation =
         remedy.operation.empty() ? diagnostic.operation : remedy.operation;
-    if (audience.project.empty() || operation.empty() || !is_complete(remedy))
+    const bool about_edit = remedy.action != RemedyAction::Give;
+    if (audience.project.empty() || operation.empty() || (about_edit && !diagnostic.edit) ||
+        (!about_edit && !is_complete(remedy)))
         return plain_remedy(diagnostic, remedy);
     const bool own = is_own(diagnostic, remedy) && !remedy.before;
     if (own && !diagnostic.edit && audience.preparing)
         return "`--resume --set " + argument_words(remedy, operation + ".") + "`";
-    const std::string project = shell_quoted(audience.project) + " ";
     if (own && diagnostic.edit)
-        return "`vesselbench change " + project + std::to_string(*diagnostic.edit) + " " +
-               argument_words(remedy) + "`";
-    return "`vesselbench apply " + project + operation + " " + argument_words(remedy) + "`" +
+        return "`" + edit_command(remedy, audience.project, *diagnostic.edit) + "`";
+    return "`vesselbench apply " + shell_quoted(audience.project) + " " + operation + " " +
+           argument_words(remedy) + "`" +
            (remedy.before && audience.preparing ? ", then --resume," : "");
 }
 

@@ -6,11 +6,9 @@
 #include <iostream>
 #include <memory>
 
-#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
 #include "workbench/case/near_names.h"
-#include "workbench/case/shell_text.h"
 #include "workbench/case/version.h"
 #include "workbench/commands/command_parser.h"
 #include "workbench/commands/measuring_commands.h"
@@ -146,23 +144,6 @@ std::string project_of(const CLI::App& app) {
     return value("PROJECT");
 }
 
-/// Runs the command; commands that an error's text proposes can be copied as they are.
-int run_command(const CommandLine& line) {
-    const std::string project = project_of(line.app);
-    if (project.empty()) return line.command();
-    try {
-        return line.command();
-    } catch (const UsageError& error) {
-        throw UsageError(with_project(error.what(), project));
-    } catch (const InvalidInput& error) {
-        throw InvalidInput(with_project(error.what(), project));
-    } catch (const Diagnosed&) {
-        throw;
-    } catch (const AlgorithmFailure& error) {
-        throw AlgorithmFailure(with_project(error.what(), project));
-    }
-}
-
 }  // namespace
 
 int run_command_line(int argc, char** argv, const std::stop_token& stop, FailedCommand& command) {
@@ -188,7 +169,7 @@ int run_command_line(int argc, char** argv, const std::stop_token& stop, FailedC
         command.edit = edit->as<std::int64_t>();
     command.audience = {.project = project_of(line.app),
                         .preparing = line.app.got_subcommand("prepare")};
-    return run_command(line);
+    return line.command();
 }
 
 }  // namespace vesselbench

@@ -36,8 +36,9 @@ int run(int argc, char** argv, const std::stop_token& stop) {
             diagnostics = vesselbench::diagnostics_of(error);
         for (vesselbench::Diagnostic& diagnostic : diagnostics)
             if (!diagnostic.edit) diagnostic.edit = command.edit;
-        const std::string text =
-            diagnostics.empty() ? error.what() : worded(diagnostics.front(), command.audience);
+        const std::string text = diagnostics.empty()
+                                     ? error.what()
+                                     : worded_with_operation(diagnostics.front(), command.audience);
         return vesselbench::report_failure({text, code, diagnostics}, command);
     };
     const auto fail_with = [&](const std::string& text, int code) {

@@ -11,7 +11,6 @@
 #include "workbench/case/diagnostic_words.h"
 #include "workbench/case/json_text.h"
 #include "workbench/case/purposes.h"
-#include "workbench/case/shell_text.h"
 #include "workbench/commands/commands.h"
 #include "workbench/commands/console.h"
 #include "workbench/export/products.h"
@@ -70,11 +69,10 @@ void prepare_case(const PrepareArguments& arguments, const Progress& progress) {
     const Purpose& purpose = find_purpose(arguments.purpose);
     const std::filesystem::path out = arguments.out;
     const std::string project = (out / "project.vbench").string();
-    const Teller tell([&](const std::string& text) { remark(with_project(text, project)); },
-                      [&](const Diagnostic& warning) {
-                          const Audience reader{.project = project, .preparing = true};
-                          remark("warning: " + worded_with_operation(warning, reader));
-                      });
+    const Teller tell(&remark, [&](const Diagnostic& warning) {
+        const Audience reader{.project = project, .preparing = true};
+        remark("warning: " + worded_with_operation(warning, reader));
+    });
     const PrepareSummary made = prepare({.input = input_options(arguments.input, arguments.name),
                                          .purpose = arguments.purpose,
                                          .recipe = arguments.recipe,

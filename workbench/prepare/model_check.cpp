@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/centerlines/centerlines.h"
@@ -50,25 +51,19 @@ std::vector<LogEntry> edits_from_first_cut(const Session& session, const std::st
 
 /// Places that stay closed: those given to the edit, and another one.
 std::string closed_argument(const LogEntry& entry, const Vec3& place) {
-    std::string text = "closed=";
+    std::string text;
     if (entry.edit.given.has("closed"))
         for (const double number : entry.edit.given.list("closed"))
             text += formatted(number, "%.5g") + ",";
     return text + coordinates_argument(place);
 }
 
-/// The command that mends an edit, and how to go on.
-std::string change_command(const LogEntry& entry, const std::string& arguments) {
-    const std::string id = std::to_string(entry.edit.edit.id);
-    return arguments.empty()
-               ? "\nvesselbench remove project.vbench " + id + ", then --resume"
-               : "\nvesselbench change project.vbench " + id + " " + arguments + ", then --resume";
-}
-
-/// What to do about an edit that opened an end where it should not, or lost its vessel.
-std::string without_end(const LogEntry& entry, const Vec3& tip) {
+/// About an edit that opened an end where it should not, or lost its vessel, and what to do.
+Diagnostic about_end(const LogEntry& entry, const Vec3& tip) {
     const bool by_hand = entry.edit.given.has("tip") || entry.edit.given.has("planes");
-    return change_command(entry, by_hand ? "" : closed_argument(entry, tip));
+    Remedy remedy{.action = RemedyAction::Remove};
+    if (!by_hand) remedy = {.arguments = {{"closed", closed_argument(entry, tip)}}};
+    return {.operation = entry.edit.operation, .edit = entry.edit.edit.id, .remedies = {remedy}};
 }
 
 bool has_edge(const Operation& operation) {
@@ -76,21 +71,23 @@ bool has_edge(const Operation& operation) {
 }
 
 /// The edit after which the vessels are missing first, and what to do about it.
-std::string remedy_for(Session& session, const std::vector<LogEntry>& edits,
-                       const BeforeOpenings& before, const CenterlineGraph& lines) {
+Diagnostic loser_of(Session& session, const std::vector<LogEntry>& edits,
+                    const BeforeOpenings& before, const CenterlineGraph& lines) {
     for (const LogEntry& entry : edits) {
         const Surface after = surface_of(session.scene_after(entry.edit.edit.id));
         std::vector<LostVessel> lost = lost_vessels(lines, after, before.asked);
         std::erase_if(lost, [](const LostVessel& vessel) { return !vessel.matters(); });
         if (lost.empty()) continue;
-        const Operation& operation = find_operation(entry.edit.operation);
-        const std::string edge = formatted(lost.back().diameter / kEdgesAcross, "%.2g");
-        const std::string by =
-            "\nlost by edit " + std::to_string(entry.edit.edit.id) + ", " + operation.name + ":";
-        if (cuts_ends(entry)) return by + without_end(entry, lost.front().tip);
-        return by + change_command(entry, has_edge(operation) ? "mode=uniform edge=" + edge : "");
+        if (cuts_ends(entry)) return about_end(entry, lost.front().tip);
+        Remedy remedy{.action = RemedyAction::Remove};
+        if (has_edge(find_operation(entry.edit.operation)))
+            remedy = {
+                .arguments = {{"mode", "uniform"},
+                              {"edge", formatted(lost.back().diameter / kEdgesAcross, "%.2g")}}};
+        return {
+            .operation = entry.edit.operation, .edit = entry.edit.edit.id, .remedies = {remedy}};
     }
-    return "";
+    return {};
 }
 
 /// The edit that made an opening, and the tip that it cut.
@@ -122,9 +119,11 @@ void require_ends_opened(const std::vector<LogEntry>& edits, const BeforeOpening
     if (wrong.empty()) return;
     const Vec3 at = patch_shape(after, wrong.front()).plane.point;
     const auto cutter = cutter_of(edits, at);
-    throw AlgorithmFailure("the opening '" + after.patches[wrong.front()].name + "' at " +
-                           place_text(at) + " lies in a vessel's side: the end has to stay closed" +
-                           (cutter ? without_end(cutter->entry, cutter->tip) : ""));
+    Diagnostic found = cutter ? about_end(cutter->entry, cutter->tip) : Diagnostic{};
+    found.code = "opening-in-wall";
+    found.place = at;
+    found.words = {{"opening", after.patches[wrong.front()].name}};
+    throw DiagnosedFailure(std::move(found));
 }
 
 /// What is missing of vessels that carry little of the flow; none: nothing.
@@ -145,8 +144,13 @@ std::optional<Diagnostic> lost_warning(const std::vector<LostVessel>& lost) {
         if (vessel.matters())
             text += "\n  " + formatted(vessel.length, "%.1f") + " mm at " +
                     place_text(vessel.place) + ", diameter " + formatted(vessel.diameter) + " mm";
-    throw AlgorithmFailure("the model has lost vessels:" + text +
-                           remedy_for(session, edits, before, check.lines));
+    Diagnostic found = loser_of(session, edits, before, check.lines);
+    found.code = "vessels-lost";
+    found.words = {{"vessels", text}};
+    if (found.edit) found.words["by"] = std::to_string(*found.edit) + ", " + found.operation;
+    for (const LostVessel& vessel : check.lost)
+        if (vessel.matters() && !found.place) found.place = vessel.place;
+    throw DiagnosedFailure(std::move(found));
 }
 
 /// The centerlines without the threads of frayed trunks, which nobody misses.

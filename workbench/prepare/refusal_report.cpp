@@ -31,27 +31,53 @@ Json resume_command(const PrepareOptions& options) {
     return command;
 }
 
-Json commands_of(const PrepareOptions& options, const Remedy& remedy) {
+std::string project_of(const PrepareOptions& options) {
+    return (options.out / "project.vbench").string();
+}
+
+void add_arguments(Json& command, const Remedy& remedy) {
+    for (const auto& [name, value] : remedy.arguments) command.push_back(name + "=" + value);
+}
+
+/// An edit that comes before the step that failed.
+Json apply_command(const PrepareOptions& options, const Remedy& remedy) {
+    Json command = {"vesselbench", "apply", project_of(options), remedy.operation};
+    add_arguments(command, remedy);
+    for (const std::string& word : {std::string("--variant"), options.purpose})
+        command.push_back(word);
+    return command;
+}
+
+/// Of an edit that was made.
+Json edit_command(const PrepareOptions& options, const Remedy& remedy, std::int64_t edit) {
+    const bool remove = remedy.action == RemedyAction::Remove;
+    Json command = {"vesselbench", remove ? "remove" : "change", project_of(options),
+                    std::to_string(edit)};
+    if (remedy.action == RemedyAction::ChooseAgain) command.push_back("--anew");
+    add_arguments(command, remedy);
+    return command;
+}
+
+/// \param remedy with its operation
+Json commands_of(const PrepareOptions& options, const Diagnostic& diagnostic,
+                 const Remedy& remedy) {
     Json resume = resume_command(options), commands = Json::array();
-    if (remedy.before) {
-        Json apply = {"vesselbench", "apply", (options.out / "project.vbench").string(),
-                      remedy.operation};
-        for (const auto& [name, value] : remedy.arguments) apply.push_back(name + "=" + value);
-        for (const std::string& word : {std::string("--variant"), options.purpose})
-            apply.push_back(word);
-        commands.push_back(std::move(apply));
-    } else {
+    if (remedy.before)
+        commands.push_back(apply_command(options, remedy));
+    else if (diagnostic.edit)
+        commands.push_back(edit_command(options, remedy, *diagnostic.edit));
+    else
         for (const auto& [name, value] : remedy.arguments) {
             resume.push_back("--set");
             resume.push_back(remedy.operation + "." + name + "=" + value);
         }
-    }
     commands.push_back(std::move(resume));
     return commands;
 }
 
-/// True if it can be given as it is: to the step that failed, or as an edit before it.
+/// True if it can be given as it is: to the step that failed, to its edit, or as an edit before it.
 bool has_commands(const Diagnostic& diagnostic, const Remedy& remedy) {
+    if (remedy.action != RemedyAction::Give) return diagnostic.edit.has_value();
     const bool own = remedy.operation.empty() || remedy.operation == diagnostic.operation;
     return (own || remedy.before) && !remedy.arguments.empty() &&
            std::ranges::none_of(remedy.arguments,
@@ -65,7 +91,7 @@ Json with_commands(const PrepareOptions& options, const Diagnostic& diagnostic) 
         Remedy remedy = diagnostic.remedies[i];
         if (!has_commands(diagnostic, remedy)) continue;
         if (remedy.operation.empty()) remedy.operation = diagnostic.operation;
-        json["remedies"][i]["commands"] = commands_of(options, remedy);
+        json["remedies"][i]["commands"] = commands_of(options, diagnostic, remedy);
     }
     return json;
 }

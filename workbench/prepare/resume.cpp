@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "workbench/operations/table.h"
 #include "workbench/prepare/recipe_run.h"
@@ -81,24 +82,28 @@ void refuse_other_input(Session& session, const Input& input) {
     const EditRecord& edit = loading.edit;
     const bool model_follows =
         parameter_of(find_operation(edit.operation), Meaning::Unit) != nullptr;
-    throw UsageError("--resume: the input was read in " + units + ", not in " + input.units +
-                     (model_follows
-                          ? ": leave --units out; another unit is a change of the edit that read "
-                            "it,\nvesselbench change project.vbench " +
-                                std::to_string(edit.edit.id) + " units=" + input.units +
-                                ", then --resume"
-                          : ": leave --units out, or prepare it into another folder"));
+    Diagnostic found{.code = "read-in-another-unit",
+                     .operation = edit.operation,
+                     .edit = edit.edit.id,
+                     .words = {{"was", units}, {"wanted", input.units}}};
+    if (model_follows)
+        found.remedies = {{.arguments = {{"units", input.units}}}};
+    else
+        found.words["advice"] = ", or prepare it into another folder";
+    throw DiagnosedUsage(std::move(found));
 }
 
 void refuse_stale_edits(const std::vector<LogEntry>& log) {
     const auto stale = std::ranges::find(log, EditStatus::Stale, &LogEntry::status);
     if (stale == log.end()) return;
-    const std::string edit = std::to_string(stale->edit.edit.id);
-    throw AlgorithmFailure(
-        "edit " + edit + " " + stale->edit.operation +
-        " no longer applies after an earlier edit was changed: " + stale->reason +
-        "; change its arguments, remove it, or\n" + "vesselbench change project.vbench " + edit +
-        " --anew, then --resume: it chooses again what it chose by itself");
+    const EditRecord& edit = stale->edit;
+    throw DiagnosedFailure({.code = "edit-no-longer-applies",
+                            .operation = edit.operation,
+                            .edit = edit.edit.id,
+                            .words = {{"number", std::to_string(edit.edit.id)},
+                                      {"name", edit.operation},
+                                      {"why", stale->reason}},
+                            .remedies = {{.action = RemedyAction::ChooseAgain}}});
 }
 
 std::vector<EditId> edits_of(const Recipe& recipe, const Snapshot& made,
@@ -156,12 +161,16 @@ void refuse_late_settings(std::span<const std::string> settings, const Recipe& r
         const bool comes = std::ranges::any_of(
             rest, [&](const RecipeEntry& entry) { return entry.given.operation().name == name; });
         if (comes) continue;
-        std::string edit = "EDIT";
+        Diagnostic made{.code = "set-too-late",
+                        .operation = name,
+                        .words = {{"setting", text}, {"name", name}}};
         for (const LogEntry& entry : log)
-            if (entry.edit.operation == name) edit = std::to_string(entry.edit.edit.id);
-        throw UsageError("--set '" + text + "': " + name +
-                         " has been made already; use vesselbench " + "change project.vbench " +
-                         edit + " " + text.substr(text.find('.') + 1) + ", then --resume");
+            if (entry.edit.operation == name) made.edit = entry.edit.edit.id;
+        const std::size_t dot = text.find('.') + 1, equals = text.find('=', dot);
+        if (made.edit && equals != std::string::npos)
+            made.remedies = {
+                {.arguments = {{text.substr(dot, equals - dot), text.substr(equals + 1)}}}};
+        throw DiagnosedUsage(std::move(made));
     }
 }
 
