@@ -88,7 +88,7 @@ SCENARIO("A trunk that frays into threads is opened where it is whole", "[geomet
         const auto record = std::ranges::max_element(plan.ends, {}, &EndRecord::diameter);
         CHECK(record->fate == EndFate::Opened);
         CHECK_FALSE(record->plain);
-        CHECK_THAT(record->why, Catch::Matchers::Contains("frays there into 4 threads"));
+        CHECK_THAT(record->why, Catch::Matchers::Contains("splits there into 4 strands"));
         CHECK(std::ranges::count(plan.ends, EndFate::Removed, &EndRecord::fate) == 4);
         const Surface made = clip_openings(surface, plan, {.promote = true}).surface;
         const PatchShape inlet = patch_shape(made, 1);

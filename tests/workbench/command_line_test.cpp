@@ -145,12 +145,15 @@ SCENARIO("With --json, a failure is a document, too", "[workbench][command-line]
         const Json json = Json::parse(result.out);
         CHECK(json["code"] == code);
         CHECK("vesselbench: " + json["error"].get<std::string>() + "\n" == result.err);
-        CHECK_FALSE(json.contains("diagnostics"));
         return json;
     };
     CHECK_FALSE(failure({"operations", "smoth"}, 2).contains("edit"));
-    failure({"measure", folder + "/no.vtp"}, 3);
-    failure({"apply", project, "extract-surface"}, 1);
+    CHECK_FALSE(failure({"measure", folder + "/no.vtp"}, 3).contains("diagnostics"));
+    const Json refusal = failure({"apply", project, "extract-surface"}, 1)["diagnostics"];
+    REQUIRE(refusal.size() == 1);
+    CHECK(refusal[0]["code"] == "no-image");
+    CHECK(refusal[0]["severity"] == "error");
+    CHECK(refusal[0]["remedies"][0]["operation"] == "load-image");
     CHECK(failure({"change", project, "7"}, 2)["edit"] == 7);
     CHECK(failure({"remove", project, "8"}, 2)["edit"] == 8);
     THEN("so it is where the arguments cannot be parsed, or are not UTF-8") {

@@ -57,7 +57,8 @@ FileLock::Attempt FileLock::acquire(const std::filesystem::path& project) {
         if (descriptor < 0) return {nullptr, "its folder cannot be written"};
         if (!is_own_file(descriptor)) {
             close(descriptor);
-            return {nullptr, path.filename().string() + " is no file of its own: remove it"};
+            return {nullptr, path.filename().string() +
+                                 " is not a regular file, or has another hard link: remove it"};
         }
         if (flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
             const std::string who = holder(descriptor);

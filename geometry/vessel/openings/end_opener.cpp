@@ -49,8 +49,8 @@ std::optional<double> distance_asked(const PlanDraft& draft, std::size_t tip) {
 std::string fray_text(const FrayedTrunk& trunk) {
     double widest = 0.0;
     for (const ThinEnd& thread : trunk.ends) widest = std::max(widest, thread.diameter);
-    return "the vessel frays there into " + std::to_string(trunk.ends.size()) +
-           " threads of at most " + formatted(widest) + " mm, which were cut off";
+    return "the lumen splits there into " + std::to_string(trunk.ends.size()) +
+           " strands of at most " + formatted(widest) + " mm, which were cut off";
 }
 
 }  // namespace

@@ -206,7 +206,7 @@ void PlanDraft::add_threads() {
                 {.place = thread.place,
                  .diameter = thread.diameter,
                  .fate = made_[e] ? EndFate::Removed : EndFate::Closed,
-                 .why = "a thread of the vessel that frays at " + place_text(ends_[e].centre),
+                 .why = "a strand of the lumen that splits at " + place_text(ends_[e].centre),
                  .shared = true,
                  .plain = true});
     }

@@ -65,8 +65,7 @@ void require_lumen(const Surface& surface) {
     if (loops > static_cast<int>(kMostLoops) &&
         static_cast<std::size_t>(loops) * kTrianglesPerLoop > surface.triangle_count())
         throw InvalidInput(
-            "there is no vessel in it that could be told from noise: the surface "
-            "has " +
+            "there is no vessel in it that can be distinguished from noise: the surface has " +
             std::to_string(loops) + " loops; choose another threshold, or give a mask");
 }
 

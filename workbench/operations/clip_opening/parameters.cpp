@@ -81,8 +81,8 @@ std::vector<Parameter> choice_parameters() {
             {.name = "strict",
              .type = Flag,
              .default_value = false,
-             .help = "cut every end perpendicular to its vessel, also one with a flat rim; the "
-                     "first end that cannot be cut is a failure"},
+             .help = "cut every end perpendicular to its vessel, also one with a flat rim; fails "
+                     "at the first end that cannot be cut"},
             {.name = "check",
              .type = Choice,
              .default_value = "flow",

@@ -148,7 +148,7 @@ void draw_preview(PanelContext& c, ScreenRect& place) {
 std::string figures_of(const LiveModel& model) {
     const auto& change = model.state.change;
     if (!change) return "";
-    return "Vertices are off the surface before by " + formatted(change->error.mean) +
+    return "Vertices are displaced from the previous surface by " + formatted(change->error.mean) +
            " mm on average, at most " + formatted(change->error.largest) + " mm; volume " +
            formatted(change->volume_change_percent, "%+.2f %%") + "; normal curvature " +
            formatted(change->normal_curvature_before_deg) + " to " +

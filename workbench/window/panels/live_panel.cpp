@@ -53,7 +53,7 @@ void draw_live_panel(PanelContext& c, const OperationForm& form) {
     if (!live.can_follow())
         return wrapped(c.ui, "The model cannot follow: " + live.why_not(), c.ui.theme.warning);
     bool on = live.follows();
-    if (checkbox(c.ui, "live.follow", "The model follows the fields", on))
+    if (checkbox(c.ui, "live.follow", "Update the model as fields change", on))
         c.place.live().follow(on);
     space(c.ui, 0.5F);
     draw_gallery_panel(c);

@@ -321,7 +321,7 @@ void draw_best(PanelContext& c, const OperationForm& form) {
     const LiveSearch::Answer* const answer = c.place.quality().answer();
     const bool found = answer != nullptr && answer->best;
     const bool known = found && !answer->leave_as_is;
-    if (button(c.ui, "quality.best", "Take the best of all",
+    if (button(c.ui, "quality.best", "Use the best overall",
                {.enabled = known, .width = -1, .help = "Fill in all of these values"})) {
         const Arguments best = *answer->best;
         c.place.live().follow(true);
