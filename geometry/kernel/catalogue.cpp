@@ -246,7 +246,7 @@ constexpr CatalogueText kTexts[] = {
 
     // What an operation refuses.
     {"edge-out-of-proportion",
-     "an edge of {edge_mm} mm ({name}) is less than a millionth of the model; {fix} suits it"},
+     "{name} = {edge_mm} mm is less than a millionth of the model; {fix} suits it"},
     {"extrusion-too-long",
      "an extrusion of '{opening}' by {length_mm} mm would make more than {most_millions:%g} "
      "million "
