@@ -97,11 +97,6 @@ std::vector<std::string> worded(const std::vector<Diagnostic>& diagnostics,
     return texts;
 }
 
-std::string worded(const std::exception& error, const Audience& audience) {
-    const auto* diagnosed = dynamic_cast<const Diagnosed*>(&error);
-    return diagnosed == nullptr ? error.what() : worded(diagnosed->diagnostics().front(), audience);
-}
-
 std::vector<Diagnostic> diagnostics_of(const std::exception& error) {
     if (const auto* diagnosed = dynamic_cast<const Diagnosed*>(&error))
         return diagnosed->diagnostics();

@@ -27,9 +27,6 @@ struct Audience {
 [[nodiscard]] std::vector<std::string> worded(const std::vector<Diagnostic>& diagnostics,
                                               const Audience& audience = {});
 
-/// An error's text: that of its first diagnostic, else its own.
-[[nodiscard]] std::string worded(const std::exception& error, const Audience& audience);
-
 /// What an error knows; of an error without diagnostics its text alone.
 [[nodiscard]] std::vector<Diagnostic> diagnostics_of(const std::exception& error);
 
