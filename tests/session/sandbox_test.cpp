@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 #include <sys/stat.h>
 
+#include "geometry/kernel/diagnostic_text.h"
 #include "tests/session/small_operations.h"
 #include "tests/support/shapes.h"
 #include "tests/support/skip.h"
