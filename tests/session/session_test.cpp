@@ -52,6 +52,26 @@ SCENARIO("A note can be written on any revision of an edit", "[session]") {
     CHECK(session.log()[1].edit.note.empty());
 }
 
+SCENARIO("A revision keeps the figures of its first run beside the newest", "[session]") {
+    Session session = sphere_session();
+    const EditRef scale = session.apply("scale", {}).edit.edit;
+    session.change_edit(1, {{"radius", 4.0}});
+    (void)session.scene();
+    const auto check = [&](const Session& now) {
+        const PastEdit past = now.snapshot()->past->at(scale);
+        REQUIRE(past.first);
+        REQUIRE(past.result);
+        CHECK(past.first->id < past.result->id);
+        CHECK(*past.first->change.volume_after > 2.0 * *past.result->change.volume_after);
+    };
+    check(session);
+    const std::string file = temporary_folder() + "/runs.vbench";
+    session.save_as(file);
+    check(Session::open(file, options()));
+    CHECK(session.snapshot()->past->at({1, 1}).first ==
+          session.snapshot()->past->at({1, 1}).result);
+}
+
 SCENARIO("The scene of any state is known without going there", "[session]") {
     Session session = sphere_session();
     const double plain = top_of(session.scene());

@@ -13,6 +13,7 @@
 #include "workbench/operations/table.h"
 #include "workbench/report/log_json.h"
 #include "workbench/window/model/folder_listing.h"
+#include "workbench/window/model/history_columns.h"
 #include "workbench/window/model/history_tree.h"
 #include "workbench/window/model/local_time.h"
 #include "workbench/window/model/message.h"
@@ -148,6 +149,55 @@ SCENARIO("The history is a tree whose branches keep their places", "[window][his
     CHECK_FALSE(tree.can_redo);
     session.undo();
     CHECK(history_tree(*session.snapshot()).redo_title == "repair");
+}
+
+SCENARIO("The history gives each state the figures of its own run", "[window][history]") {
+    Session session = tube_session();
+    const LogEntry finer = session.apply("subdivide", {});
+    const std::string own = effect_text(*finer.result);
+    session.apply("subdivide", {}, {.step = Step::Source});
+    REQUIRE(session.log()[2].status == EditStatus::Pending);
+    (void)session.scene();
+    REQUIRE(effect_text(*session.log()[2].result) != own);
+    const auto row_of = [&](StateId state) {
+        const HistoryTree tree = history_tree(*session.snapshot());
+        return *std::ranges::find(tree.rows, state, &HistoryRow::state);
+    };
+    CHECK(row_of(2).change == own);
+    WHEN("the edit is removed") {
+        session.remove_edit(finer.edit.edit.id);
+        const HistoryRow removal = row_of(session.snapshot()->history->current());
+        THEN("the removal does not repeat the edit's author, time and figures") {
+            CHECK(removal.title == "removed subdivide");
+            CHECK(removal.change.empty());
+            CHECK(removal.author.empty());
+            CHECK(removal.time.empty());
+        }
+    }
+    WHEN("the project is saved and opened") {
+        const std::string file = temporary_folder() + "/figures.vbench";
+        session.save_as(file);
+        const Session opened = Session::open(file, session_options());
+        const HistoryTree tree = history_tree(*opened.snapshot());
+        CHECK(std::ranges::find(tree.rows, 2, &HistoryRow::state)->change == own);
+    }
+}
+
+SCENARIO("The history's columns give way to the name", "[window][history]") {
+    HistoryColumns wider = history_columns(80);
+    CHECK(wider.change > 20);
+    CHECK(wider.author > 0);
+    for (float room = 80; room >= 0; room -= 0.25F) {
+        const HistoryColumns columns = history_columns(room);
+        CHECK(columns.name + columns.change + columns.author + columns.time == Approx(room));
+        CHECK(columns.change <= wider.change + 6.0F);  // it may take over what the author leaves
+        if (columns.author > 0) CHECK(columns.change > 0);
+        if (columns.change > 0) CHECK(columns.time > 0);
+        if (columns.time > 0) CHECK(columns.name >= 11.0F);
+        wider = columns;
+    }
+    CHECK(history_columns(15).time == 0);
+    CHECK(history_columns(15).name == 15);
 }
 
 SCENARIO("A message names the operation that its text recommends", "[window][messages]") {

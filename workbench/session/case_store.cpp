@@ -18,6 +18,22 @@ std::optional<ResultId> end_of(const std::vector<HistoryEntry>& line) {
     return end;
 }
 
+/// The results of a revision that are not stale; 0: none.
+struct RunRange {
+    ResultId first = 0, newest = 0;
+};
+
+std::map<EditRef, RunRange> runs_in(const History& history) {
+    std::map<EditRef, RunRange> runs;
+    for (const auto& [id, result] : history.results()) {  // ascending
+        if (!result.stale_reason.empty()) continue;
+        RunRange& run = runs[result.edit];
+        if (run.first == 0) run.first = id;
+        run.newest = id;
+    }
+    return runs;
+}
+
 }  // namespace
 
 CaseStore::CaseStore(ProjectFile project, std::size_t scene_bytes)
@@ -89,19 +105,23 @@ void CaseStore::renew_past() {
     const auto& edits = history_->edits();
     if (past_ && past_->size() == edits.size() && past_results_ == history_->results().size())
         return;
+    const std::map<EditRef, RunRange> runs = runs_in(*history_);
     std::vector<EditRef> refs;
-    std::map<EditRef, ResultId> newest;
-    for (const auto& [ref, place] : edits) {
-        refs.push_back(ref);
-        if (const HistoryResult* result = history_->newest_result_of(ref)) newest[ref] = result->id;
-    }
+    for (const auto& [ref, place] : edits) refs.push_back(ref);
     std::vector<ResultId> results;
-    for (const auto& [ref, id] : newest) results.push_back(id);
+    for (const auto& [ref, run] : runs) {
+        results.push_back(run.newest);
+        if (run.first != run.newest) results.push_back(run.first);
+    }
     remember(refs, results);
     auto past = std::make_shared<std::map<EditRef, PastEdit>>();
-    for (const EditRef ref : refs)
-        past->emplace(ref, PastEdit{edits_.at(ref),
-                                    newest.contains(ref) ? records_.at(newest.at(ref)) : nullptr});
+    for (const EditRef ref : refs) {
+        PastEdit& edit = past->emplace(ref, PastEdit{.edit = edits_.at(ref)}).first->second;
+        const auto run = runs.find(ref);
+        if (run == runs.end()) continue;
+        edit.result = records_.at(run->second.newest);
+        edit.first = records_.at(run->second.first);
+    }
     past_ = std::move(past);
     past_results_ = history_->results().size();
 }

@@ -23,6 +23,9 @@ struct LogEntry {
 struct PastEdit {
     EditRecord edit;
     std::shared_ptr<const ResultRecord> result;  ///< its newest that is not stale; else null
+    /// Its first that is not stale: of the run in the one state that made the revision, whose
+    /// figures later runs on other input do not change. Else null.
+    std::shared_ptr<const ResultRecord> first;
 };
 
 /// The state of a session at one moment: an immutable value that any thread may hold and read while

@@ -59,10 +59,11 @@ HistoryRow row_of(const Snapshot& snapshot, const HistoryState& state) {
     row.arguments = arguments_text(edit);
     row.note = edit.note;
     row.edit = state.edit;
+    // A removal runs nothing: author, time and figures are those of the edit that it leaves out.
+    if (state.change == StateChange::Remove) return row;
     row.author = edit.author;
     row.time = local_time(edit.time, "%Y-%m-%d %H:%M");
-    if (found->second.result && state.change != StateChange::Remove)
-        row.change = effect_text(*found->second.result);
+    if (found->second.first) row.change = effect_text(*found->second.first);
     return row;
 }
 

@@ -18,9 +18,9 @@ struct HistoryRow {
     std::string arguments;
     std::string note;
     EditRef edit;        ///< the revision that was applied or changed; id 0: none
-    std::string change;  ///< "volume -2.1 %, moved up to 0.31 mm"
-    std::string author;
-    std::string time;  ///< UTC, "2024-05-17 09:30"
+    std::string change;  ///< of its run in this state: "volume -2.1 %, moved up to 0.31 mm"
+    std::string author;  ///< empty for a removal, as its change and time
+    std::string time;    ///< local, "2024-05-17 09:30"
 };
 
 struct HistoryTree {

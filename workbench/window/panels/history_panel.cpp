@@ -7,6 +7,7 @@
 
 #include <imgui.h>
 
+#include "workbench/window/model/history_columns.h"
 #include "workbench/window/model/readable.h"
 #include "workbench/window/style/icons.h"
 #include "workbench/window/view/thumbnail_drawing.h"
@@ -60,17 +61,19 @@ float picture_width(float height) {
 Columns columns_of(const Ui& ui, const HistoryTree& tree, float width) {
     const float graph =
         ui.grid(3.5F) + static_cast<float>(std::min(tree.columns, kMostColumns)) * ui.em;
-    const float time = ui.em * 8.5F, author = ui.em * 6;
     Columns columns{.picture = graph, .tools = width - ui.grid(0.5F) - 2 * ImGui::GetFrameHeight()};
     columns.title = graph + picture_width(row_height(ui)) + ui.grid(1);
-    columns.end = columns.tools - ui.grid(0.5F);
-    columns.time = columns.end - time;
-    columns.author = columns.time - author;
-    columns.change = columns.title + (columns.author - columns.title) * 0.42F;
+    columns.end = std::max(columns.title, columns.tools - ui.grid(0.5F));
+    const HistoryColumns shares = history_columns((columns.end - columns.title) / ui.em);
+    columns.change = columns.title + shares.name * ui.em;
+    columns.author = columns.change + shares.change * ui.em;
+    columns.time = columns.author + shares.author * ui.em;
     return columns;
 }
 
+/// Nothing in a column that is left out.
 void cell(const Ui& ui, float x, float until, float y, const std::string& words, Paint colour) {
+    if (until <= x) return;
     const ImVec2 window = ImGui::GetWindowPos();
     const std::string shown = fitted(words, until - x - ui.grid(1.5F));
     ImGui::GetWindowDrawList()->AddText({window.x + x, y}, colour, shown.c_str());
@@ -129,6 +132,7 @@ void draw_help(PanelContext& c, const HistoryRow& state) {
     line(readable(state.title) + " " + state.arguments, c.ui.theme.text);
     if (!state.note.empty()) line("\u201C" + state.note + "\u201D", c.ui.theme.text);
     if (!state.change.empty()) line(state.change, c.ui.theme.muted);
+    if (!state.time.empty()) line(state.time + "  " + state.author, c.ui.theme.muted);
     if (!state.current) line("Click to go to this state; nothing is lost.", c.ui.theme.muted);
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
