@@ -16,9 +16,11 @@
 #include "workbench/prepare/prepared_purposes.h"
 #include "workbench/prepare/recipe.h"
 #include "workbench/report/log_json.h"
+#include "workbench/report/measure_table.h"
 #include "workbench/session/compaction.h"
 #include "workbench/session/moved_places.h"
 #include "workbench/session/session.h"
+#include "workbench/session/stored_measures.h"
 
 namespace vesselbench {
 
@@ -240,6 +242,15 @@ void print_log(const std::vector<LogEntry>& log) {
     std::cout << as_columns(rows);
 }
 
+void print_measures(const std::vector<KeptMeasure>& measures) {
+    if (measures.empty()) return;
+    std::vector<std::vector<std::string>> rows = {{"measure", "figures", "on", "state", "time"}};
+    for (const KeptMeasure& measure : measures)
+        rows.push_back({measure.name, measure_text(measure), to_string(measure.on),
+                        std::to_string(measure.state), measure.time});
+    std::cout << "\n" << as_columns(rows);
+}
+
 Json replay_json(const std::vector<ReplayEntry>& entries) {
     Json list = Json::array();
     bool same = true;
@@ -387,7 +398,11 @@ void note_edit(const NoteOptions& options) {
 void show_log(const LogOptions& options) {
     const Session session = open_for_reading(options.project);
     const std::shared_ptr<const Snapshot> now = session.snapshot();
-    if (!options.json) return print_log(now->log);
+    const std::vector<KeptMeasure> measures = stored_measures(options.project);
+    if (!options.json) {
+        print_log(now->log);
+        return print_measures(measures);
+    }
     Json edits = Json::array();
     for (const LogEntry& entry : now->log) edits.push_back(log_json(entry));
     std::cout << text_from_json(
@@ -395,7 +410,8 @@ void show_log(const LogOptions& options) {
                            {"read_only", now->read_only_reason},
                            {"state", now->history->current()},
                            {"states", now->history->states().size()},
-                           {"edits", edits}}),
+                           {"edits", edits},
+                           {"measures", measures_json(measures)}}),
                      2)
               << "\n";
 }

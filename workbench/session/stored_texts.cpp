@@ -21,6 +21,8 @@ std::string key_of(StoredText which) {
             return "input name";
         case StoredText::CaseFolder:
             return "case folder";
+        case StoredText::Measures:
+            return "measures";
         case StoredText::Spots:
             break;
     }

@@ -8,13 +8,14 @@ namespace vesselbench {
 /// What a project keeps beside its history: it is of the project, not of a state, and undo does
 /// not change it. Each is JSON.
 enum class StoredText {
-    Recipes,    ///< those that the case brought along
-    Flow,       ///< the arguments given for the flow, of those in flow_parameters()
-    Spots,      ///< stored_spots.h
-    Warnings,   ///< of a recipe, beside those of the edits
-    Purposes,   ///< that it was prepared for, the last one last
-    InputName,  ///< the one that was given in place of the input's own
-    CaseFolder  ///< where the files of these recipes are, relative to the project's folder
+    Recipes,     ///< those that the case brought along
+    Flow,        ///< the arguments given for the flow, of those in flow_parameters()
+    Spots,       ///< stored_spots.h
+    Warnings,    ///< of a recipe, beside those of the edits
+    Purposes,    ///< that it was prepared for, the last one last
+    InputName,   ///< the one that was given in place of the input's own
+    CaseFolder,  ///< where the files of these recipes are, relative to the project's folder
+    Measures     ///< stored_measures.h
 };
 
 /// Keeps a text in a project file, which a session of this process may have open.

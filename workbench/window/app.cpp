@@ -173,7 +173,7 @@ bool App::is_moving() const {
            impl_->place.quality().pending() || impl_->place.gallery().pending() ||
            impl_->place.extraction().pending() || impl_->place.openings().pending() ||
            impl_->viewport.pending() || impl_->place.wants_picture() ||
-           impl_->thumbnails.pending() || impl_->files.pending();
+           impl_->place.measures.pending() || impl_->thumbnails.pending() || impl_->files.pending();
 }
 
 std::optional<double> App::next_change() const {

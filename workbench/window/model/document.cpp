@@ -45,6 +45,13 @@ private:
     StrokeQueue strokes_;  ///< last: they use the runner
 };
 
+/// \throw IoError for a file that an edit has read
+void require_no_source(const Session& session, const std::filesystem::path& file) {
+    if (session.is_source(file))
+        throw IoError("'" + file.filename().string() +
+                      "' is a source of this project: it is not replaced");
+}
+
 RequestLabel history_label(const std::string& what) {
     return {.what = what, .kind = RequestKind::History};
 }
@@ -370,9 +377,7 @@ void Document::export_to(const std::filesystem::path& file) {
     const std::string unit = format == nullptr ? "" : ", in " + format->unit;
     const auto write = [file, project = project_, variant = variant_](Session& session,
                                                                       const Progress& progress) {
-        if (session.is_source(file))
-            throw IoError("'" + file.filename().string() +
-                          "' is a source of this project: it is not replaced");
+        require_no_source(session, file);
         const Scene scene = session.scene(variant, progress.part(0.0, 0.7));
         PendingFiles files;
         export_scene(files, file, scene,
@@ -393,6 +398,20 @@ void Document::save_copy(const std::filesystem::path& project) {
           [this, project](const Nothing&) {
               tell(make_message(MessageKind::Success, "Saved a copy as " + project.string()));
           });
+}
+
+void Document::write_table(const std::filesystem::path& file, const std::string& table) {
+    if (!begin_request(RequestKind::Output)) return;
+    const auto write = [file, table](Session& session, const Progress&) {
+        require_no_source(session, file);
+        PendingFiles files;
+        files.add_text(file, table);
+        files.commit();
+        return Nothing{};
+    };
+    const std::string done = "Exported " + file.string();
+    watch(runner_->submit(write), output_label("Export"),
+          [this, done](const Nothing&) { tell(make_message(MessageKind::Success, done)); });
 }
 
 // --- previews

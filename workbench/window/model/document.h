@@ -164,6 +164,9 @@ public:
     void export_to(const std::filesystem::path& file);
     void save_copy(const std::filesystem::path& project);
 
+    /// Writes a text of the window's, which must not replace a source of the project.
+    void write_table(const std::filesystem::path& file, const std::string& table);
+
     // --- strokes of a brush
 
     /// True if a stroke may begin: of other requests, only strokes are being entered.

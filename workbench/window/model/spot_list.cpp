@@ -1,7 +1,7 @@
 #include "workbench/window/model/spot_list.h"
 
 #include <algorithm>
-#include <exception>
+#include <utility>
 
 namespace vesselbench {
 
@@ -17,91 +17,40 @@ std::string free_name(const std::vector<Spot>& spots) {
 
 }  // namespace
 
-SpotList::SpotList(std::function<void()> wake) : wake_(std::move(wake)) {
-    reading_.emplace(wake_);
-    storing_.emplace(wake_);
-}
-
-SpotList::~SpotList() {
-    finish();
-}
-
-// --- the project
+SpotList::SpotList(std::function<void()> wake)
+    : list_(std::move(wake), {.what = "spots", .read = stored_spots, .store = store_spots}) {}
 
 void SpotList::open(const std::filesystem::path& project, std::string read_only) {
-    close();
-    project_ = project;
-    blocked_ = std::move(read_only);
-    reading_->start([project](const Progress&) { return stored_spots(project); });
+    chosen_ = 0;
+    list_.open(project, std::move(read_only));
 }
 
 std::string SpotList::close() {
-    std::string lost = finish();
-    reading_.emplace(wake_);
-    storing_.emplace(wake_);
-    project_.clear();
-    blocked_.clear();
-    failure_.clear();
-    spots_.clear();
     chosen_ = 0;
-    return lost;
+    return list_.close();
 }
-
-bool SpotList::update() {
-    const bool read = reading_->poll(), stored = storing_->poll();
-    if (auto spots = reading_->take()) spots_ = std::move(*spots);
-    // What cannot be read is not written over.
-    if (read && !reading_->problem().empty())
-        blocked_ = "the stored spots cannot be read: " + reading_->problem();
-    if (stored) failure_ = storing_->problem();
-    if (stored && failure_.empty() && !storing_->pending()) unsaved_ = false;
-    return read || stored;
-}
-
-void SpotList::keep() {
-    if (project_.empty() || !blocked_.empty()) return;
-    unsaved_ = true;
-    storing_->start_after([project = project_, spots = spots_](const Progress&) {
-        store_spots(project, spots);
-        return Nothing{};
-    });
-}
-
-/// What was asked for last may still wait. \return why it is lost; empty: it is not
-std::string SpotList::finish() {
-    reading_.reset();
-    storing_.reset();
-    if (!std::exchange(unsaved_, false)) return "";
-    try {
-        store_spots(project_, spots_);
-    } catch (const std::exception& error) {
-        return error.what();
-    }
-    return "";
-}
-
-// --- the spots
 
 const Spot* SpotList::chosen() const {
-    return spots_.empty() ? nullptr : &spots_[std::min(chosen_, spots_.size() - 1)];
+    return all().empty() ? nullptr : &all()[std::min(chosen_, all().size() - 1)];
 }
 
 void SpotList::add(const Vec3& point, const Vec3& normal) {
-    spots_.push_back({free_name(spots_), point, normal});
-    chosen_ = spots_.size() - 1;
-    keep();
+    list_.change([&](std::vector<Spot>& spots) {
+        spots.push_back({free_name(spots), point, normal});
+    });
+    chosen_ = all().size() - 1;
 }
 
 void SpotList::rename(std::size_t spot, const std::string& name) {
-    if (spots_.at(spot).name == name) return;
-    spots_[spot].name = name;
-    keep();
+    if (all().at(spot).name == name) return;
+    list_.change([&](std::vector<Spot>& spots) { spots[spot].name = name; });
 }
 
 void SpotList::remove(std::size_t spot) {
-    spots_.erase(spots_.begin() + static_cast<std::ptrdiff_t>(spot));
-    if (chosen_ > spot || (chosen_ > 0 && chosen_ == spots_.size())) --chosen_;
-    keep();
+    list_.change([&](std::vector<Spot>& spots) {
+        spots.erase(spots.begin() + static_cast<std::ptrdiff_t>(spot));
+    });
+    if (chosen_ > spot || (chosen_ > 0 && chosen_ == all().size())) --chosen_;
 }
 
 }  // namespace vesselbench

@@ -5,6 +5,7 @@
 
 #include "geometry/kernel/wording.h"
 #include "workbench/operations/table.h"
+#include "workbench/report/measure_table.h"
 #include "workbench/window/model/opening_roles.h"
 #include "workbench/window/model/rail.h"
 #include "workbench/window/model/user_folders.h"
@@ -26,6 +27,7 @@ std::optional<EditId> image_edit(const Snapshot& snapshot) {
 Workplace::Workplace(DocumentOptions options, Settings remembered, const LiveDevice& live)
     : document(options),
       settings(std::move(remembered)),
+      measures(options.wake),
       search_(options.wake),
       view_data_(options.wake),
       slices_(options.wake),
@@ -49,6 +51,8 @@ bool Workplace::update() {
         view = {};
         end_spots();
         gallery_.spots.open(document.project(), document.snapshot()->read_only_reason);
+        end_measures();
+        measures.open(document.project(), document.snapshot()->read_only_reason);
     }
     if (seen_snapshots_ != document.snapshot_changes()) renew_lists();
     if (seen_entered_ != document.entered()) {
@@ -62,7 +66,8 @@ bool Workplace::update() {
     const bool live = update_live();
     const bool openings = update_openings();
     const bool new_slices = update_slices();
-    return openings || live || view_data || places || new_slices || compared || changed;
+    const bool measured = update_measures();
+    return openings || live || view_data || places || new_slices || compared || measured || changed;
 }
 
 bool Workplace::update_live() {
@@ -86,6 +91,13 @@ bool Workplace::update_openings() {
     const bool changed = openings_.update(document, form_ ? &*form_ : nullptr);
     if (changed && form_ && !before_drag_) fill_form(openings_.due_texts(*form_));
     return changed;
+}
+
+/// A distance is not continued on another model, or after another tool.
+bool Workplace::update_measures() {
+    const std::pair now(view.tool, document.scene_changes());
+    if (std::exchange(measured_with_, now) != now) measures.begin_next();
+    return measures.update();
 }
 
 /// The outline in the slices is that of the surface in the view.
@@ -208,6 +220,13 @@ void Workplace::end_spots() {
             make_message(MessageKind::Error, "the last change of the spots is lost: " + lost));
 }
 
+void Workplace::end_measures() {
+    const std::string lost = measures.close();
+    if (!lost.empty())
+        document.tell(
+            make_message(MessageKind::Error, "the last change of the measures is lost: " + lost));
+}
+
 void Workplace::close() {
     leave_form();
     stop_comparing();
@@ -216,6 +235,7 @@ void Workplace::close() {
     gallery_.show(GalleryMode::Off);
     document.close();
     end_spots();
+    end_measures();
     slices_.clear();
     settings.refresh();
     renew_lists();
@@ -437,6 +457,15 @@ void Workplace::pick_label(int label) {
         set_field(armed_, picked_labels(form_->field(armed_).text, label));
 }
 
+// --- measuring
+
+MeasuredModel Workplace::measured_model(MeasuredOn on) const {
+    const bool preview = document.previewed() || live_.shown();
+    return {.on = preview && on == MeasuredOn::Surface ? MeasuredOn::Preview : on,
+            .state = document.is_open() ? document.snapshot()->history->current() : 0,
+            .variant = document.variant()};
+}
+
 // --- comparing
 
 void Workplace::compare(StateId reference) {
@@ -611,6 +640,8 @@ void Workplace::answer(const std::filesystem::path& file) {
         case FileQuestion::Picture:
             picture_file_ = file;
             return;
+        case FileQuestion::Measures:
+            return document.write_table(file, measures_csv(measures.all()));
         case FileQuestion::None:
             return;
     }

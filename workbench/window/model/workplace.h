@@ -15,6 +15,7 @@
 #include "workbench/window/model/image_slices.h"
 #include "workbench/window/model/live_extraction.h"
 #include "workbench/window/model/live_smoothing.h"
+#include "workbench/window/model/measure_list.h"
 #include "workbench/window/model/openings_model.h"
 #include "workbench/window/model/operation_form.h"
 #include "workbench/window/model/pick_target.h"
@@ -30,7 +31,7 @@
 namespace vesselbench {
 
 /// What a file is asked for.
-enum class FileQuestion { None, Open, SaveCopy, Export, Parameter, Picture };
+enum class FileQuestion { None, Open, SaveCopy, Export, Parameter, Picture, Measures };
 
 /// Everything the window is about, without drawing: the document, what the user has chosen and
 /// typed, and the lists that panels show.
@@ -45,6 +46,7 @@ public:
     Document document;
     Settings settings;
     ViewChoice view;
+    MeasureList measures;
 
     // --- cases
 
@@ -176,6 +178,16 @@ public:
     [[nodiscard]] const SurfacePlaces& surface_places() const { return places_; }
 
     [[nodiscard]] bool searches_places() const { return search_.pending(); }
+
+    // --- measuring
+
+    /// True if clicks on the model and in slices measure, and are for nothing else.
+    [[nodiscard]] bool is_measuring() const {
+        return view.tool != MeasureTool::None && armed_.empty();
+    }
+
+    /// What a measure that is made now is of. \param on Surface also for a preview
+    [[nodiscard]] MeasuredModel measured_model(MeasuredOn on) const;
 
     // --- the image
 
@@ -331,11 +343,13 @@ private:
     void bring_back(const OperationForm& before);
     [[nodiscard]] bool update_live();
     [[nodiscard]] bool update_openings();
+    [[nodiscard]] bool update_measures();
     [[nodiscard]] bool update_slices();
     void end_models_gallery();
     void end_applied_form();
     void drop_form();
     void end_spots();
+    void end_measures();
     void tell_difference();
     void tell_fallback();
     [[nodiscard]] bool update_places();
@@ -366,6 +380,8 @@ private:
     std::filesystem::path picture_file_;
     int searched_scenes_ = -1;  ///< the document's scene changes at the last search
     bool searched_tips_ = false;
+    /// The tool and the document's scene changes that the next click measures with.
+    std::pair<MeasureTool, int> measured_with_;
     ImageSlices slices_;
     std::function<void()> wake_;
     std::optional<Comparison> comparison_;

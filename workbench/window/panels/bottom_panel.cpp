@@ -5,6 +5,7 @@
 #include <imgui.h>
 
 #include "workbench/window/panels/history_panel.h"
+#include "workbench/window/panels/measure_panel.h"
 #include "workbench/window/panels/message_panel.h"
 #include "workbench/window/panels/panel_frame.h"
 #include "workbench/window/style/icons.h"
@@ -34,6 +35,11 @@ std::string message_label(const Document& document) {
     return serious == 0 ? "Messages" : "Messages (" + std::to_string(serious) + ")";
 }
 
+std::string measure_label(const MeasureList& measures) {
+    const std::size_t count = measures.all().size();
+    return count == 0 ? "Measures" : "Measures (" + std::to_string(count) + ")";
+}
+
 }  // namespace
 
 void draw_bottom_panel(PanelContext& c, const ScreenRect& rect) {
@@ -42,13 +48,15 @@ void draw_bottom_panel(PanelContext& c, const ScreenRect& rect) {
     ImGui::SameLine();
     draw_tab(c, "tab.messages", icons::kMessages, message_label(c.place.document),
              BottomTab::Messages);
+    ImGui::SameLine();
+    draw_tab(c, "tab.measures", icons::kRuler, measure_label(c.place.measures),
+             BottomTab::Measures);
     ImGui::SetCursorPosY(ImGui::GetCursorPosY() - c.ui.grid(0.5F));
     separator(c.ui);
     ImGui::BeginChild("bottom content");
-    if (c.shown.bottom == BottomTab::History)
-        draw_history(c);
-    else
-        draw_messages(c);
+    if (c.shown.bottom == BottomTab::History) draw_history(c);
+    if (c.shown.bottom == BottomTab::Messages) draw_messages(c);
+    if (c.shown.bottom == BottomTab::Measures) draw_measure_table(c);
     ImGui::EndChild();
     end_frame();
 }

@@ -4,7 +4,7 @@
 
 namespace vesselbench {
 
-/// Below: tabs with history and messages.
+/// Below: tabs with history, messages and measures.
 void draw_bottom_panel(PanelContext& context, const ScreenRect& rect);
 
 }  // namespace vesselbench

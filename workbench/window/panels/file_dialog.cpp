@@ -21,6 +21,7 @@ namespace fs = std::filesystem;
 std::vector<std::string> suffixes_for(FileQuestion question) {
     if (question == FileQuestion::SaveCopy) return {".vbench"};
     if (question == FileQuestion::Picture) return {".png"};
+    if (question == FileQuestion::Measures) return {".csv"};
     if (question == FileQuestion::Open) return openable_suffixes();
     if (question == FileQuestion::Parameter) {
         std::vector<std::string> suffixes = openable_suffixes();
@@ -45,6 +46,8 @@ const char* title_of(FileQuestion question) {
             return "Choose a file";
         case FileQuestion::Picture:
             return "Save a picture of the view";
+        case FileQuestion::Measures:
+            return "Export the measures";
         case FileQuestion::None:
             break;
     }
@@ -64,6 +67,7 @@ bool can_have_volume(const Document& document) {
 /// What the name of a new file adds to the project's. A volume mesh is what one was made for.
 const char* ending_for(FileQuestion question, bool volume) {
     if (question == FileQuestion::Picture) return ".png";
+    if (question == FileQuestion::Measures) return ".csv";
     if (question != FileQuestion::Export) return " copy.vbench";
     return volume ? ".vtu" : ".stl";
 }
@@ -81,6 +85,7 @@ std::vector<ExportFormat> listed_formats(bool volume) {
 /// The suffix that a name must have; empty: any.
 std::string needed_suffix(FileQuestion question) {
     if (question == FileQuestion::SaveCopy) return ".vbench";
+    if (question == FileQuestion::Measures) return ".csv";
     return question == FileQuestion::Picture ? ".png" : "";
 }
 
@@ -118,7 +123,7 @@ std::string size_text(std::uintmax_t bytes) {
 
 bool FileDialog::writes() const {
     return question_ == FileQuestion::SaveCopy || question_ == FileQuestion::Export ||
-           question_ == FileQuestion::Picture;
+           question_ == FileQuestion::Picture || question_ == FileQuestion::Measures;
 }
 
 void FileDialog::enter(const fs::path& folder) {

@@ -13,7 +13,7 @@
 
 namespace vesselbench {
 
-enum class BottomTab { History, Messages };
+enum class BottomTab { History, Messages, Measures };
 
 enum class FormTab { Fields, Live };
 

@@ -2,8 +2,7 @@
 
 #include <deque>
 #include <functional>
-#include <optional>
-#include <vector>
+#include <string>
 
 #include "geometry/vessel/centerlines/vessel_diameter.h"
 #include "gpu/render/pick.h"
@@ -13,16 +12,17 @@
 
 namespace vesselbench {
 
-/// Measures by clicks on the surface: distances from click to click, and diameters of vessels.
+/// Measures by clicks on the surface: distances from click to click, and diameters of vessels. What
+/// was measured is kept in the workplace's list.
 class MeasuringTool {
 public:
     /// \param renderer must outlive it \param wake as Viewport's
     MeasuringTool(Renderer& renderer, std::function<void()> wake);
 
     /// Once a frame, before the model is drawn.
-    void update(const PanelContext& context, const SeenModel& seen);
+    void update(PanelContext& context, const SeenModel& seen);
 
-    /// Drops what was measured, and what is being measured.
+    /// Drops what is being measured.
     void forget();
 
     /// True while a search runs.
@@ -30,15 +30,7 @@ public:
         return picker_.pending() || search_.pending() || !clicks_.empty() || !places_.empty();
     }
 
-    /// Lines and figures in ImGui's current window.
-    void draw(PanelContext& context, const PixelView& screen) const;
-
     void draw_strip(PanelContext& context, ViewStrips& strips);
-
-    /// What was clicked for distances, in the order of the clicks [mm].
-    [[nodiscard]] const Positions& points() const { return points_; }
-
-    [[nodiscard]] const std::vector<VesselDiameter>& diameters() const { return diameters_; }
 
 private:
     /// A click whose place is not searched yet.
@@ -50,10 +42,8 @@ private:
 
     void add_click(const SeenModel& seen);
     void search_click();
-    void take(const Picked& picked);
+    void take(PanelContext& context, const Picked& picked);
     void search_diameter(const PanelContext& context);
-    void draw_distance(const Ui& ui, const PixelView& screen) const;
-    void draw_diameter(const Ui& ui, const PixelView& screen, const VesselDiameter& diameter) const;
     [[nodiscard]] std::string words(const PanelContext& context) const;
 
     Picker picker_;
@@ -63,8 +53,6 @@ private:
     int seen_scenes_ = -1;
     std::deque<Click> clicks_;
     std::deque<Vec3> places_;  ///< where diameters are still to be measured [mm]
-    Positions points_;
-    std::vector<VesselDiameter> diameters_;
 };
 
 }  // namespace vesselbench

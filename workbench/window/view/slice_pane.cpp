@@ -8,6 +8,7 @@
 
 #include "workbench/window/panels/panel_frame.h"
 #include "workbench/window/style/icons.h"
+#include "workbench/window/view/measure_drawing.h"
 #include "workbench/window/view/screen_places.h"
 #include "workbench/window/view/view_overlays.h"
 #include "workbench/window/widgets/controls.h"
@@ -52,6 +53,24 @@ void shadowed(const Ui& ui, ImVec2 at, ImVec2 anchor, Paint colour, const std::s
 SlicePlane plane_across(int axis) {
     return *std::ranges::find_if(
         kSlicePlanes, [axis](SlicePlane plane) { return axes_of(plane).normal == axis; });
+}
+
+MeasuredOn measured_on(SlicePlane plane) {
+    switch (plane) {
+        case SlicePlane::Axial:
+            return MeasuredOn::AxialSlice;
+        case SlicePlane::Coronal:
+            return MeasuredOn::CoronalSlice;
+        case SlicePlane::Sagittal:
+            break;
+    }
+    return MeasuredOn::SagittalSlice;
+}
+
+/// A click does not move the cross: it is for the armed parameter, or measures a distance.
+bool takes_clicks(const Workplace& place) {
+    return place.armed_target() ||
+           (place.is_measuring() && place.view.tool == MeasureTool::Distance);
 }
 
 /// A line with a gap in its middle.
@@ -123,19 +142,22 @@ void SlicePane::handle_drag(PanelContext& c) {
         camera_ = panned(camera_, screen().aspect(), Eigen::Vector2d::Zero(),
                          screen().ndc_move({io.MouseDelta.x, io.MouseDelta.y}));
         fits_ = false;
-    } else if (ImGui::IsMouseDown(ImGuiMouseButton_Left) && !c.place.armed_target() && pointed_) {
+    } else if (ImGui::IsMouseDown(ImGuiMouseButton_Left) && !takes_clicks(c.place) && pointed_) {
         slices.set_cross(*pointed_);
     }
 }
 
-/// A click gives its place to the armed parameter; a drag does not.
+/// A click gives its place to the armed parameter, or measures; a drag does not.
 void SlicePane::handle_click(PanelContext& c) {
     const ImGuiIO& io = ImGui::GetIO();
     const float reach = kClickReach * c.ui.em;
-    const auto target = c.place.armed_target();
     const bool still = io.MouseDragMaxDistanceSqr[ImGuiMouseButton_Left] < reach * reach;
-    if (!target || !pointed_ || !still || io.KeyShift || !c.place.slices().value_at(*pointed_))
+    if (!takes_clicks(c.place) || !pointed_ || !still || io.KeyShift ||
+        !c.place.slices().value_at(*pointed_))
         return;
+    if (c.place.is_measuring())
+        return c.place.measures.click(*pointed_, c.place.measured_model(measured_on(plane_)));
+    const auto target = c.place.armed_target();
     c.place.slices().set_cross(*pointed_);
     if (target != PickTarget::Labels) return c.place.pick(*pointed_);
     if (const auto label = c.place.slices().label_at(*pointed_)) c.place.pick_label(*label);
@@ -152,7 +174,7 @@ void SlicePane::handle_mouse(PanelContext& c) {
     if (!over) return;
     handle_wheel(c);
     if (c.shown.keys.has(KeyCommand::FrameSlice)) fits_ = true;
-    if (c.place.armed_target()) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+    if (takes_clicks(c.place)) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
 }
 
 // --- drawing
@@ -273,6 +295,9 @@ void SlicePane::draw(PanelContext& c, const PaneSource& source, const ScreenRect
     draw_cross(overlay, c.place.slices());
     draw_texts(c, overlay);
     draw_marks(c, overlay);
+    const int normal = axes_of(plane_).normal;
+    draw_measures_in_slice(c, screen(), normal, c.place.slices().position(plane_),
+                           kNearSlice * grid_.step[normal]);
     draw_switch(c);
     draw_slider(c, {rect.x, rect.y + rect_.height, rect.width, slider});
     end_frame();

@@ -23,8 +23,8 @@ struct PaneSource {
 };
 
 /// A slice as a 2D view: letters of the sides, position, scale, and the lines of the other planes.
-/// Click or drag moves the cross there, or gives the clicked place to the armed parameter; right
-/// drag changes window and level; the wheel goes through the slices, with Ctrl it zooms.
+/// Click or drag moves the cross there; a click gives its place to the armed parameter, or measures
+/// a distance while that tool is on; right drag changes window and level; the wheel goes through the slices, with Ctrl it zooms.
 class SlicePane {
 public:
     explicit SlicePane(SlicePlane plane) : plane_(plane) {}

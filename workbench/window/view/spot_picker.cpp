@@ -16,11 +16,6 @@ std::vector<NamedPlace> places_of(const SpotList& spots) {
     return places;
 }
 
-/// Clicks are for nothing else.
-bool is_free(const Workplace& place) {
-    return place.armed().empty() && place.view.tool == MeasureTool::None;
-}
-
 }  // namespace
 
 SpotPicker::SpotPicker(Renderer& renderer, std::function<void()> wake)
@@ -41,7 +36,8 @@ void SpotPicker::update(PanelContext& c, const SeenModel& seen) {
     SuggestionGallery& gallery = c.place.gallery();
     if (gallery.mode() != GalleryMode::Spots) return forget();
     take(gallery, seen);
-    if (seen.clicked && seen.surface != nullptr && is_free(c.place)) {
+    if (seen.clicked && seen.surface != nullptr && c.place.armed().empty() &&
+        !c.place.is_measuring()) {
         const auto mark = nearest_mark(seen.screen, places_of(gallery.spots), mouse_pixel(),
                                        kMarkReach * c.ui.em);
         if (gallery.picks()) {

@@ -99,6 +99,10 @@ void ViewPlaces::light_opening(const PanelContext& c, const SeenModel& seen) {
 
 void ViewPlaces::update(PanelContext& c, const SeenModel& seen) {
     if (const auto picked = picker_.result()) answer_ = Answer{asked_, *picked};
+    if (c.place.is_measuring()) {
+        c.place.forget_role_question();
+        return forget();
+    }
     const SurfacePlaces& places = c.place.surface_places();
     const std::optional<PickTarget> target = target_in_view(c.place);
     if (seen.clicked) {

@@ -13,6 +13,7 @@
 #include "workbench/window/view/drive_control.h"
 #include "workbench/window/view/edit_marks.h"
 #include "workbench/window/view/end_markers.h"
+#include "workbench/window/view/measure_drawing.h"
 #include "workbench/window/view/measuring_tool.h"
 #include "workbench/window/view/role_card.h"
 #include "workbench/window/view/slice_row.h"
@@ -196,7 +197,8 @@ bool Viewport::Impl::handle_gallery(PanelContext& c) {
     if (!ImGui::IsItemActive()) pressed_spot = false;
     const bool over = cell && ImGui::IsItemHovered();
     if (over && gallery.magnifies()) gallery.zoom(ImGui::GetIO().MouseWheel);
-    const bool taken = over && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
+    const bool taken =
+        over && !c.place.is_measuring() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
     if (taken) c.place.take_suggestion(*cell);
     return pressed_spot || taken || (over && gallery.magnifies() && !ImGui::IsItemActive());
 }
@@ -251,7 +253,11 @@ void Viewport::Impl::draw_controls(PanelContext& c, const ScreenRect& area) {
     const ToolRequests asked = draw_view_tools(c, area, camera.camera().perspective);
     if (asked.frame) camera.frame(content());
     if (asked.switch_perspective) camera.switch_perspective();
-    if (scene.surface() == nullptr) return draw_empty_view(c, scene);
+    if (scene.surface() == nullptr) {
+        draw_empty_view(c, scene);
+        ViewStrips below(scene.rect());
+        return measuring.draw_strip(c, below);
+    }
     ViewStrips strips(scene.gallery().hides_model() ? scene.gallery().above_plates(area)
                                                     : scene.rect());
     scene.clip().draw_strip(c, strips);
@@ -260,8 +266,8 @@ void Viewport::Impl::draw_controls(PanelContext& c, const ScreenRect& area) {
 }
 
 void Viewport::Impl::draw_model_marks(PanelContext& c, const PixelView& screen, bool over_view) {
-    measuring.draw(c, screen);
-    draw_edit_marks(c, screen, over_view && !c.place.form());
+    draw_measures(c, screen);
+    draw_edit_marks(c, screen, over_view && !c.place.form() && !c.place.is_measuring());
 }
 
 void Viewport::Impl::draw_overlays(PanelContext& c, bool over_view) {
