@@ -10,6 +10,7 @@
 
 #include "geometry/kernel/errors.h"
 #include "tests/support/shapes.h"
+#include "workbench/window/model/clipped_values.h"
 #include "workbench/window/model/view_choice.h"
 #include "workbench/window/model/worst_places.h"
 
@@ -149,6 +150,27 @@ SCENARIO("The automatic range leaves out outliers", "[window][colours]") {
         CHECK(equal.least + equal.most == Approx(8));
     }
     CHECK(shown_range({}) == ValueRange{0, 1});
+}
+
+SCENARIO("The legend says how many values are outside the range", "[window][colours]") {
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    const auto values = std::make_shared<const std::vector<double>>(
+        std::vector<double>{-5, 0, 1, 2, 3, 4, 5, 6, 10, 20, none});
+    const ValueRange range{0, 10};
+    CHECK(clipped_shares(*values, range) == ClippedShares{.below = 0.1, .above = 0.1});
+    CHECK(clipped_words(clipped_shares(*values, range)) == "10 % above the range, 10 % below it");
+    CHECK(clipped_words(clipped_shares(*values, {-5, 10})) == "10 % above the range");
+    CHECK(clipped_words(clipped_shares(*values, {0, 20})) == "10 % below the range");
+    CHECK(clipped_words(clipped_shares(*values, {-5, 20})).empty());
+    CHECK(clipped_words({.above = 0.004}) == "0.4 % above the range");
+    CHECK(clipped_words({.above = 1e-5}) == "less than 0.1 % above the range");
+    CHECK(clipped_shares({none}, range) == ClippedShares{});
+    THEN("another range is counted again") {
+        ClippedCount count;
+        CHECK(count.of(values, range).above == Approx(0.1));
+        CHECK(count.of(values, {0, 4}).above == Approx(0.5));
+        CHECK(count.of(nullptr, range) == ClippedShares{});
+    }
 }
 
 SCENARIO("Tetrahedra have their smallest angles as colours", "[window][colours]") {

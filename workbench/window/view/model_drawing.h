@@ -94,9 +94,12 @@ public:
     /// The values at the ends of the colours.
     [[nodiscard]] ValueRange colour_range() const;
 
-private:
     using Values = std::shared_ptr<const std::vector<double>>;
 
+    /// Those that the colours show, #V; null: none.
+    [[nodiscard]] const Values& values() const { return uploaded_; }
+
+private:
     void lay_out(const Surface& surface);
     template <class Work>
     void upload(const Work& work);

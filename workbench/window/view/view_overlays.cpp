@@ -130,6 +130,8 @@ void draw_colour_legend(const Ui& ui, const ScreenRect& view, const ColourLegend
         centred_text(ui.fonts.small, {left + wide * static_cast<float>(share), low}, ui.theme.text,
                      zero ? "0" : formatted(value));
     }
+    if (!legend.remark.empty())
+        centred_text(ui.fonts.small, {left + wide / 2, low + ui.em}, ui.theme.text, legend.remark);
 }
 
 }  // namespace vesselbench

@@ -31,6 +31,7 @@ struct ColourLegend {
     ColourMap map = ColourMap::Ordered;
     double least = 0.0, most = 1.0;  ///< values at its ends
     std::string title;               ///< with the unit
+    std::string remark;              ///< under it: "3 % above the range"; may be empty
 };
 
 /// The colours with their values, in the upper right corner.

@@ -66,17 +66,30 @@ std::string deviation_title(const PanelContext& c, const ViewScene& scene) {
                : "Distance from the source [mm]";
 }
 
+/// The values whose colours are drawn; null: none.
+ClippedCount::Values drawn_values(const PanelContext& c, const ViewScene& scene) {
+    const auto& colours = c.place.view_data().colours();
+    if (!scene.clip().shows_tetrahedra()) return scene.model().values();
+    return colours ? ClippedCount::Values(colours, &colours->values) : nullptr;
+}
+
 /// None: the colours are those of patches.
-std::optional<ColourLegend> legend_of(const PanelContext& c, const ViewScene& scene) {
+std::optional<ColourLegend> legend_of(const PanelContext& c, const ViewScene& scene,
+                                      ClippedCount& clipped) {
     const bool cells = scene.clip().shows_tetrahedra();
     const ValueRange range = cells ? scene.clip().range() : scene.model().colour_range();
+    ColourLegend legend{.least = range.least, .most = range.most};
     if (cells || scene.model().shows_colouring()) {
         const ColouringInfo& info = colouring_info(c.place.view.colouring);
-        return ColourLegend{ColourMap::Ordered, range.least, range.most,
-                            std::string(info.label) + " [" + info.unit + "]"};
+        legend.title = std::string(info.label) + " [" + info.unit + "]";
+    } else if (scene.model().shows_deviation(scene.model_look())) {
+        legend.map = ColourMap::Diverging;
+        legend.title = deviation_title(c, scene);
+    } else {
+        return std::nullopt;
     }
-    if (!scene.model().shows_deviation(scene.model_look())) return std::nullopt;
-    return ColourLegend{ColourMap::Diverging, range.least, range.most, deviation_title(c, scene)};
+    legend.remark = clipped_words(clipped.of(drawn_values(c, scene), range));
+    return legend;
 }
 
 std::string empty_words(const PanelContext& c, const ViewScene& scene) {
@@ -105,9 +118,10 @@ ToolRequests draw_view_tools(PanelContext& c, const ScreenRect& view, bool persp
     return asked;
 }
 
-void draw_legend(const PanelContext& c, const ViewScene& scene) {
-    const auto legend = legend_of(c, scene);
-    if (!legend || scene.hides_model()) return;
+void draw_legend(const PanelContext& c, const ViewScene& scene, ClippedCount& clipped) {
+    if (scene.hides_model()) return;
+    const auto legend = legend_of(c, scene, clipped);
+    if (!legend) return;
     ScreenRect place = scene.rect();
     if (scene.compared().colours_model()) place.y += c.ui.em * 1.5F;             // below its banner
     if (c.place.document.stands_before() != nullptr) place.y += c.ui.em * 3.5F;  // its banner

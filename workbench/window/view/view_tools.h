@@ -1,5 +1,6 @@
 #pragma once
 
+#include "workbench/window/model/clipped_values.h"
 #include "workbench/window/panels/panel_context.h"
 #include "workbench/window/view/view_scene.h"
 
@@ -14,8 +15,8 @@ struct ToolRequests {
 [[nodiscard]] ToolRequests draw_view_tools(PanelContext& context, const ScreenRect& view,
                                            bool perspective);
 
-/// What the colours mean.
-void draw_legend(const PanelContext& context, const ViewScene& scene);
+/// What the colours mean. \param clipped remembers its count from frame to frame
+void draw_legend(const PanelContext& context, const ViewScene& scene, ClippedCount& clipped);
 
 /// What to do while there is no surface.
 void draw_empty_view(PanelContext& context, const ViewScene& scene);

@@ -96,6 +96,7 @@ struct Viewport::Impl {
     EndMarkers ends;
     DriveControl drive;
     MeasuringTool measuring;
+    ClippedCount clipped;
     ViewPicture picture;
     SliceRow slice_row;
     bool pressed_spot = false;  ///< the mouse was pressed in a magnified spot
@@ -136,6 +137,7 @@ void Viewport::Impl::rest(PanelContext& c) {
     drive.forget();
     measuring.forget();
     slice_row = {};
+    clipped = {};
     picture.collect(c.place.document);
 }
 
@@ -297,7 +299,7 @@ void Viewport::Impl::draw_frame(PanelContext& c, const ScreenRect& area) {
     if (!camera.is_inside()) draw_scale_bar(c.ui, rect, camera.camera());
     if (const auto side = draw_orientation(c.ui, rect, camera.camera())) camera.face(*side);
     scene.compared().draw_labels(c.ui, area);
-    draw_legend(c, scene);
+    draw_legend(c, scene, clipped);
 }
 
 void Viewport::Impl::draw(PanelContext& c, const ScreenRect& area) {
