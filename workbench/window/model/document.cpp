@@ -5,6 +5,11 @@
 #include <chrono>
 #include <exception>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+#include "geometry/kernel/derived_cache.h"
 #include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/diagnostic_text.h"
 #include "geometry/kernel/errors.h"
@@ -28,6 +33,17 @@ constexpr std::size_t kMostMessages = 500;
 
 /// How often an opening that waits asks whether it was cancelled.
 constexpr std::chrono::milliseconds kCancelAsked(20);
+
+// Polls after a case was closed until the frames between them have let go of what they showed: of
+// the frame that closed it, then of the first one without it.
+constexpr int kPollsToRelease = 3;
+
+/// The free memory of all arenas: without this, glibc keeps it below what is still used.
+void give_back_memory() {
+#ifdef __GLIBC__
+    malloc_trim(0);
+#endif
+}
 
 /// A case on its way out: strokes that were painted to their end are entered first.
 class ClosedCase {
@@ -111,6 +127,7 @@ bool Document::poll() {
         take_opened();
         changed = true;
     }
+    release_memory();
     if (!runner_) return changed;
     const std::vector<Request> ended = take_ended(requests_);
     const std::vector<EndedStroke> strokes = strokes_.poll();
@@ -131,6 +148,18 @@ bool Document::poll() {
 void Document::retire(std::shared_ptr<void> owner) {
     closing_ = std::make_shared<TaskRun>(
         [owner = std::move(owner)](const Progress&) mutable { owner.reset(); });
+    closer_.add(closing_);
+}
+
+/// Gives a closed case's memory back to the system, on a thread of its own: that takes a while.
+void Document::release_memory() {
+    if (polls_to_release_ == 0 || is_closing()) return;
+    if (--polls_to_release_ > 0) return;
+    const bool open = is_open() || is_opening();
+    closing_ = std::make_shared<TaskRun>([open](const Progress&) {
+        if (!open) derived_cache().clear();
+        give_back_memory();
+    });
     closer_.add(closing_);
 }
 
@@ -157,8 +186,10 @@ void Document::close() {
     for (const Request& request : requests_) request.run->cancel();
     requests_.clear();
     preparation_.reset();
-    if (runner_)
+    if (runner_) {
         retire(std::make_shared<ClosedCase>(std::move(runner_), std::exchange(strokes_, {})));
+        polls_to_release_ = kPollsToRelease;
+    }
     snapshot_.reset();
     input_.reset();
     prepared_.clear();

@@ -192,7 +192,7 @@ public:
     /// True if anything runs, also in the background.
     [[nodiscard]] bool busy() const {
         return is_opening() || !requests_.empty() || !strokes_.empty() || is_closing() ||
-               shown_.pending();
+               polls_to_release_ > 0 || shown_.pending();
     }
 
     /// True while a closed case still ends, and holds its project.
@@ -217,6 +217,7 @@ public:
 
 private:
     void retire(std::shared_ptr<void> owner);
+    void release_memory();
     template <class Result, class Then>
     void watch(Task<Result> task, const RequestLabel& label, Then then);
     [[nodiscard]] bool begin_request(RequestKind kind);
@@ -245,6 +246,7 @@ private:
     DocumentOptions options_;
     TaskThread closer_;
     std::shared_ptr<TaskRun> closing_;  ///< ends when every closed case has ended; null: none was
+    int polls_to_release_ = 0;          ///< until a closed case's memory can be given back
     Task<Opened> opening_;
     std::unique_ptr<SessionRunner> runner_;
     std::vector<Request> requests_;

@@ -64,6 +64,7 @@ bool LiveExtraction::update(const LiveSmoothing::Followed& followed) {
                                      ? &followed.form->operation()
                                      : nullptr;
     if (take_operation(operation) || !has_form()) began_ = false;
+    if (followed.document.current() == nullptr) take_base(followed.document);  // closed
     if (!has_form()) return take_models();
     take_base(followed.document);
     take_reason(reason_against(followed));

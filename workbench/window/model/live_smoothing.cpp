@@ -53,6 +53,7 @@ bool LiveSmoothing::update(const Followed& followed) {
             ? &followed.form->operation()
             : nullptr;
     take_operation(operation);
+    if (followed.document.current() == nullptr) take_base(followed);  // of a closed case
     if (!has_form()) return take_models();
     take_base(followed);
     take_reason(why_not_followed(followed));

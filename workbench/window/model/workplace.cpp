@@ -355,6 +355,7 @@ void Workplace::drop_form() {
     extraction_.follow(false);
     slices_.lend_row(false);
     applied_live_.reset();
+    applied_to_.reset();
     document.drop_preview();
     if (form_) document.forget_failure();
     form_.reset();

@@ -39,6 +39,7 @@ void BranchHighlight::update(const OperationForm* form, const Surface* surface,
     if (!now) {
         if (asked_) task_.forget();
         asked_.reset();
+        positions_.reset();
         clear();
         return;
     }

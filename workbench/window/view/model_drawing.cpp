@@ -26,9 +26,17 @@ void ModelDrawing::show(const Scene* scene) {
     task_.forget();
     problem_.clear();
     if (scene == nullptr || !scene->surface || scene->surface->empty())
-        drawn_.reset();
+        release();
     else
         lay_out(*scene->surface);
+}
+
+/// Holds nothing of a model that is no longer shown: it may be of a closed case.
+void ModelDrawing::release() {
+    drawn_.reset();
+    shown_ = {};
+    uploaded_.reset();
+    colours_.reset();
 }
 
 void ModelDrawing::reshape(const Surface& surface) {

@@ -100,6 +100,7 @@ public:
     [[nodiscard]] const Values& values() const { return uploaded_; }
 
 private:
+    void release();
     void lay_out(const Surface& surface);
     template <class Work>
     void upload(const Work& work);
