@@ -107,6 +107,58 @@ SCENARIO("A reopened project finds the files of its recipe", "[window][opening]"
     }
 }
 
+SCENARIO("A file that was opened before opens its project", "[window][opening]") {
+    const fs::path file = tube_file();
+    const auto options = [&] {
+        return DocumentOptions{.session = session_options(), .documents = temporary_folder()};
+    };
+    fs::path first;
+    {
+        Document document(options());
+        open_and_wait(document, file);
+        CHECK_FALSE(document.made_before());
+        first = document.project();
+        document.apply("repair", {}, Step::Source);
+        while (document.busy()) document.poll();
+    }
+    Document document(options());
+    open_and_wait(document, file);
+    REQUIRE(document.made_before());
+    CHECK(fs::equivalent(document.project(), first));
+    CHECK(document.snapshot()->log.size() == 2);
+    WHEN("the user wants to begin anew") {
+        document.begin_anew();
+        while (document.busy()) document.poll();
+        THEN("a new project is made, and the earlier one stays") {
+            CHECK_FALSE(document.made_before());
+            CHECK(document.project().filename() == "tube-2.vbench");
+            CHECK(document.snapshot()->log.size() == 1);
+            CHECK(fs::exists(first));
+        }
+    }
+    WHEN("the file is opened while its project is open") {
+        open_and_wait(document, file);
+        CHECK(document.project().filename() == "tube-2.vbench");
+    }
+    WHEN("another file of this name is opened") {
+        document.close();
+        while (document.busy()) document.poll();
+        fs::copy_file(tube_file(36), file, fs::copy_options::overwrite_existing);
+        open_and_wait(document, file);
+        THEN("its project is another one") {
+            CHECK_FALSE(document.made_before());
+            CHECK(document.project().filename() == "tube-2.vbench");
+        }
+    }
+    WHEN("the project is damaged") {
+        document.close();
+        while (document.busy()) document.poll();
+        write_text(first, "no project");
+        open_and_wait(document, file);
+        CHECK(document.project().filename() == "tube-2.vbench");
+    }
+}
+
 SCENARIO("A case with a wrong recipe is not opened", "[window][opening]") {
     Document document({.session = session_options(), .documents = temporary_folder()});
     const fs::path folder = case_with_recipe(R"([{"operation": "vanished"}])");

@@ -165,6 +165,7 @@ void Document::release_memory() {
 
 void Document::open(OpenRequest request) {
     request.documents = options_.documents;
+    request.open_project = project_;
     failure_.reset();
     std::error_code ignored;
     const bool can_change = runner_ && snapshot_->read_only_reason.empty();
@@ -182,6 +183,13 @@ void Document::open(OpenRequest request) {
     });
 }
 
+void Document::begin_anew() {
+    if (!made_before_) return;
+    OpenRequest request = *std::exchange(made_before_, std::nullopt);
+    request.anew = true;
+    open(std::move(request));
+}
+
 void Document::close() {
     for (const Request& request : requests_) request.run->cancel();
     requests_.clear();
@@ -192,6 +200,7 @@ void Document::close() {
     }
     snapshot_.reset();
     input_.reset();
+    made_before_.reset();
     prepared_.clear();
     failure_.reset();
     project_.clear();
@@ -225,7 +234,10 @@ void Document::show(Opened opened) {
     for (const LogEntry& entry : snapshot_->log)
         if (entry.result) tell_warnings(entry.edit, *entry.result);
     const std::string what = opened.is_new ? "New project " : "Opened ";
-    tell(make_message(MessageKind::Success, what + project_.string()));
+    made_before_ = std::move(opened.made_before);
+    const std::string from =
+        made_before_ ? ", which was made from " + made_before_->name() : std::string();
+    tell(make_message(MessageKind::Success, what + project_.string() + from));
     for (const Message& remark : opened.remarks) tell_once(remark);
 }
 

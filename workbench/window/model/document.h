@@ -46,6 +46,16 @@ public:
     void open(OpenRequest request);
     void close();
 
+    /// The file that was asked for, if this is a project that was made from it before; none: it was
+    /// begun anew, or kept.
+    [[nodiscard]] const std::optional<OpenRequest>& made_before() const { return made_before_; }
+
+    /// Makes a new project from that file.
+    void begin_anew();
+
+    /// Asks no longer whether to begin anew.
+    void keep_made_before() { made_before_.reset(); }
+
     [[nodiscard]] bool is_open() const { return runner_ != nullptr; }
 
     [[nodiscard]] bool is_opening() const { return opening_.pending(); }
@@ -254,6 +264,7 @@ private:
     ShownScene shown_;
     std::filesystem::path project_;
     std::optional<Input> input_;
+    std::optional<OpenRequest> made_before_;
     std::vector<std::string> prepared_;  ///< purposes whose model was made
     std::string variant_ = kDefaultVariant;
     std::shared_ptr<const Snapshot> snapshot_;

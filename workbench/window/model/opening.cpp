@@ -81,14 +81,36 @@ std::optional<Input> remembered_input(const fs::path& project, std::vector<Messa
     }
 }
 
-Opened open_project(const OpenRequest& request, const SessionOptions& options) {
-    Opened opened{.session = Session::open(request.path, options), .project = request.path};
-    opened.input = remembered_input(request.path, opened.remarks);
-    opened.prepared = prepared_purposes(request.path);
+Opened open_project(const fs::path& project, const SessionOptions& options) {
+    Opened opened{.session = Session::open(project, options), .project = project};
+    opened.input = remembered_input(project, opened.remarks);
+    opened.prepared = prepared_purposes(project);
     const std::string reason = opened.session.read_only_reason();
     if (!reason.empty())
         opened.remarks.push_back(make_message(MessageKind::Remark, "read-only: " + reason));
     return opened;
+}
+
+/// The project that was made from a file before, where the window puts projects; none if it has
+/// not read just this content, cannot be opened or written, or is open already.
+std::optional<Opened> open_earlier(const OpenRequest& request, const SessionOptions& options) {
+    std::error_code ignored;
+    if (request.anew || !fs::is_regular_file(request.path, ignored)) return std::nullopt;
+    for (const fs::path& file :
+         earlier_project_files(request.path, request.beside_input, request.documents)) {
+        if (fs::equivalent(file, request.open_project, ignored)) continue;
+        try {
+            Opened opened = open_project(file, options);
+            if (!opened.session.read_only_reason().empty()) continue;
+            if (!opened.session.is_source(request.path)) continue;
+            opened.made_before = request;
+            return opened;
+        } catch (const Cancelled&) {
+            throw;
+        } catch (const std::exception&) {  // a damaged one is not the answer
+        }
+    }
+    return std::nullopt;
 }
 
 Opened open_input(const fs::path& path, const fs::path& project, const SessionOptions& options,
@@ -105,7 +127,11 @@ Opened open_input(const fs::path& path, const fs::path& project, const SessionOp
     const Teller tell([&](const std::string& text) { remarks.push_back(message_from(text)); },
                       [&](const Diagnostic& warning) { remarks.push_back(make_message(warning)); });
     Session session = start_project(project, input, options, tell, progress.part(0.4, 1.0));
-    return {std::move(session), project, true, input, std::move(remarks), {}};
+    return {.session = std::move(session),
+            .project = project,
+            .is_new = true,
+            .input = input,
+            .remarks = std::move(remarks)};
 }
 
 Opened open_phantom(const OpenRequest& request, const SessionOptions& options,
@@ -127,7 +153,8 @@ Opened open_case(const OpenRequest& request, const SessionOptions& options,
     progress.report(0.0, "opening " + request.name());
     if (!request.phantom.empty()) return open_phantom(request, options, progress);
     if (!fs::exists(request.path)) throw IoError("'" + request.name() + "' does not exist");
-    if (request.path.extension() == ".vbench") return open_project(request, options);
+    if (request.path.extension() == ".vbench") return open_project(request.path, options);
+    if (auto earlier = open_earlier(request, options)) return std::move(*earlier);
     return open_input(request.path,
                       new_project_file(request.path, request.beside_input, request.documents),
                       options, progress);

@@ -29,6 +29,19 @@ std::string plain_stem(const fs::path& input) {
     return name.empty() ? "case" : name.string();
 }
 
+/// "a-2.png" of "a.png".
+std::string numbered(const fs::path& file, int number) {
+    return file.stem().string() + "-" + std::to_string(number) + file.extension().string();
+}
+
+/// Where the first project of an input goes.
+fs::path project_place(const fs::path& input, bool beside, const fs::path& otherwise) {
+    const fs::path parent = (input.has_filename() ? input : input.parent_path()).parent_path();
+    const fs::path near = parent.empty() ? fs::path(".") : parent;
+    const fs::path folder = beside && is_writable_folder(near) ? near : otherwise;
+    return folder / (plain_stem(input) + ".vbench");
+}
+
 }  // namespace
 
 fs::path home_folder() {
@@ -66,19 +79,28 @@ fs::path bundled_cases_folder() {
 }
 
 fs::path free_file(const fs::path& wanted) {
-    const std::string stem = wanted.stem().string(), suffix = wanted.extension().string();
     fs::path file = wanted;
     std::error_code error;
     for (int number = 2; fs::exists(file, error); ++number)
-        file.replace_filename(stem + "-" + std::to_string(number) + suffix);
+        file.replace_filename(numbered(wanted, number));
     return file;
 }
 
 fs::path new_project_file(const fs::path& input, bool beside, const fs::path& otherwise) {
-    const fs::path parent = (input.has_filename() ? input : input.parent_path()).parent_path();
-    const fs::path near = parent.empty() ? fs::path(".") : parent;
-    const fs::path folder = beside && is_writable_folder(near) ? near : otherwise;
-    return free_file(folder / (plain_stem(input) + ".vbench"));
+    return free_file(project_place(input, beside, otherwise));
+}
+
+std::vector<fs::path> earlier_project_files(const fs::path& input, bool beside,
+                                            const fs::path& otherwise) {
+    const fs::path first = project_place(input, beside, otherwise), next = free_file(first);
+    std::vector<fs::path> files;
+    std::error_code error;
+    fs::path file = first;
+    for (int number = 2; file != next && fs::is_regular_file(file, error); ++number) {
+        files.insert(files.begin(), file);
+        file.replace_filename(numbered(first, number));
+    }
+    return files;
 }
 
 }  // namespace vesselbench

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 namespace vesselbench {
 
@@ -29,5 +30,10 @@ namespace vesselbench {
 [[nodiscard]] std::filesystem::path new_project_file(const std::filesystem::path& input,
                                                      bool beside,
                                                      const std::filesystem::path& otherwise);
+
+/// The projects that new_project_file() may have named for this input, those with the highest
+/// number first. They may be of another input of the same name.
+[[nodiscard]] std::vector<std::filesystem::path> earlier_project_files(
+    const std::filesystem::path& input, bool beside, const std::filesystem::path& otherwise);
 
 }  // namespace vesselbench

@@ -116,6 +116,19 @@ void draw_input(PanelContext& c, ScreenRect& place, float gap) {
     place.y += place.height + gap;
 }
 
+void draw_made_before(PanelContext& c, ScreenRect& place) {
+    Document& document = c.place.document;
+    const Banner banner{icons::kInformation, c.ui.theme.accent,
+                        "This project was made from " + document.made_before()->name() +
+                            " before; it is opened as you left it",
+                        "Begin anew", true};
+    place.height = height_of(c.ui, banner, place.width);
+    c.ui.item("banner.made_before", place);
+    const Answer answer = draw_banner(c, "made_before", banner, place);
+    if (answer == Answer::Action) return document.begin_anew();
+    if (answer == Answer::Close) document.keep_made_before();
+}
+
 /// The first edit of the shown variant that no longer applies, unless its form is open.
 const LogEntry* stale_edit(const PanelContext& c) {
     const auto& form = c.place.form();
@@ -230,6 +243,10 @@ void draw_banners(PanelContext& c, const ScreenRect& view) {
         place.y += place.height + gap;
     } else if (c.place.unit_question()) {
         place.height = draw_unit_banner(c, place);
+        place.y += place.height + gap;
+    }
+    if (document.made_before()) {
+        draw_made_before(c, place);
         place.y += place.height + gap;
     }
     if (c.place.comparison()) {
