@@ -8,7 +8,8 @@
 
 namespace vesselbench {
 
-/// Draws a surface off-screen, 4 samples per pixel, orthographic, on white.
+/// Draws a surface off-screen, 4 samples per pixel, orthographic, on white unless told
+/// otherwise.
 /// \throw GpuUnavailable if there is no usable OpenGL; InvalidInput for an empty surface or an
 /// unusable size
 [[nodiscard]] Picture draw(const Surface& surface, const PictureOptions& options = {});

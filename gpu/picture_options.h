@@ -32,6 +32,7 @@ struct PictureOptions {
     /// Bounds for the camera instead of the surface's: pictures side by side then share one view.
     std::shared_ptr<const Surface> frame = nullptr;
     double half_height = 0.0;  ///< half the height of the view [mm]; 0: from zoom
+    Colour background = Colour::Ones();
     /// Another surface whose edges are drawn over this one unless they are far behind it.
     std::shared_ptr<const Surface> wires = nullptr;
 };

@@ -26,6 +26,7 @@ SceneView view_of(const Surface& frame, const PictureOptions& options) {
     view.camera.half_height =
         options.half_height > 0.0 ? options.half_height : view.camera.half_height / options.zoom;
     view.camera.centre += options.shift;
+    view.background = Background{options.background, options.background};
     return view;
 }
 

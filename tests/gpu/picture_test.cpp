@@ -4,6 +4,7 @@
 
 #include "geometry/kernel/errors.h"
 #include "gpu/png.h"
+#include "gpu/transparency.h"
 #include "tests/support/shapes.h"
 
 using namespace vesselbench;
@@ -30,6 +31,21 @@ PictureOptions small() {
 }
 
 }  // namespace
+
+SCENARIO("A picture on black and on white gives one on nothing", "[gpu][picture]") {
+    // Nothing, a solid colour, and half of it.
+    const Picture black{3, 1, {0, 0, 0, 200, 100, 0, 100, 50, 0}};
+    const Picture white{3, 1, {255, 255, 255, 200, 100, 0, 227, 177, 127}};
+    const ClearPicture clear = without_background(black, white);
+    CHECK(clear.width == 3);
+    REQUIRE(clear.rgba.size() == 12);
+    CHECK(clear.rgba[3] == 0);
+    CHECK(std::vector<int>(clear.rgba.begin() + 4, clear.rgba.begin() + 8) ==
+          std::vector{200, 100, 0, 255});
+    CHECK(clear.rgba[11] == 128);
+    CHECK(int{clear.rgba[8]} == Approx(200).margin(2));
+    CHECK_THROWS_AS(without_background(black, Picture{1, 1, {0, 0, 0}}), InvalidInput);
+}
 
 SCENARIO("A sphere is drawn as a disc in the middle", "[gpu][picture]") {
     const Picture picture = draw(icosphere(5.0, 4, Vec3(100, 50, -20)), small());

@@ -9,6 +9,7 @@
 #include "geometry/kernel/whole_file.h"
 #include "geometry/kernel/wording.h"
 #include "gpu/device.h"
+#include "gpu/png.h"
 #include "gpu/render/view_camera.h"
 #include "tests/support/paths.h"
 #include "tests/support/shapes.h"
@@ -422,6 +423,39 @@ SCENARIO("Openings have the colours of reports", "[window][view]") {
     REQUIRE(seen.shell->settle(30s));
     const auto outlet = colour_at({1.5, 0, 30});
     CHECK(outlet[2] > outlet[0] + 30);
+}
+
+SCENARIO("Pictures of the view are larger, on white, or on nothing", "[window][view]") {
+    Seen seen;
+    if (!seen.shell) return;
+    const ScreenRect view = seen.view();
+    const auto saved = [&](const std::string& size, const std::string& background) {
+        if (!seen.shell->has("view.picture.size")) REQUIRE(seen.shell->click_item("view.options"));
+        REQUIRE(seen.shell->click_item("view.picture.size"));
+        REQUIRE(seen.shell->click_item("view.picture.size=" + size));
+        REQUIRE(seen.shell->click_item("view.picture.background"));
+        REQUIRE(seen.shell->click_item("view.picture.background=" + background));
+        const std::string file = temporary_folder() + "/view.png";
+        seen.place().ask(FileQuestion::Picture);
+        seen.place().answer(file);
+        REQUIRE(seen.shell->settle(30s));
+        const auto picture = picture_from_png(file_content(file));
+        REQUIRE(picture);
+        return *picture;
+    };
+    const auto pixel = [](const ClearPicture& picture, int x, int y) {
+        const auto first = picture.rgba.begin() + 4 * (std::ptrdiff_t{y} * picture.width + x);
+        return std::vector<int>(first, first + 4);
+    };
+    const ClearPicture white = saved("2\u00D7", "White");
+    CHECK(white.width == 2 * static_cast<int>(view.width));
+    CHECK(white.height == 2 * static_cast<int>(view.height));
+    CHECK(pixel(white, 0, 0) == std::vector{255, 255, 255, 255});
+    CHECK(pixel(white, white.width / 2, white.height / 2) != std::vector{255, 255, 255, 255});
+    const ClearPicture clear = saved("1\u00D7", "Transparent");
+    CHECK(clear.width == static_cast<int>(view.width));
+    CHECK(pixel(clear, 0, 0)[3] == 0);
+    CHECK(pixel(clear, clear.width / 2, clear.height / 2)[3] == 255);
 }
 
 SCENARIO("A picture of the view is saved", "[window][view]") {

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/formats/surface_file.h"
+#include "geometry/kernel/whole_file.h"
 #include "gpu/png.h"
 #include "tests/support/paths.h"
 #include "tests/support/program.h"
@@ -409,6 +410,11 @@ SCENARIO("A picture shows a vertex attribute with a scale", "[workbench][command
     CHECK_THAT(
         run({"picture", file, out, "--colour", "height", "--size", "64", "--range", "0,2"}).out,
         Contains("height from 0 to 2"));
+    CHECK(run({"picture", file, out, "--size", "64", "--transparent"}).exit_code == 0);
+    const auto clear = vesselbench::picture_from_png(vesselbench::file_content(out));
+    REQUIRE(clear);
+    CHECK(clear->width == 64);
+    CHECK(clear->rgba[3] == 0);
 }
 
 SCENARIO("A picture's pixels have the colours of the attribute's scale",

@@ -113,6 +113,7 @@ struct PictureArguments {
     std::vector<double> view = {0, 1, 0};  ///< view direction, 3 numbers (LPS)
     std::optional<double> full_colour;     ///< [mm]; none: 98 % of the vertices are below
     int size = 700;                        ///< width and height [pixels]
+    bool transparent = false;              ///< background; else white
     std::string units;                     ///< of the files; empty: mm
     bool json = false;
 };

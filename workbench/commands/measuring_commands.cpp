@@ -104,6 +104,8 @@ void add_picture(CommandLine& line) {
     command.add_option("--size", options->size, "Width and height [pixels]")
         ->capture_default_str()
         ->type_name("PIXELS");
+    command.add_flag("--transparent", options->transparent,
+                     "Transparent background instead of white; a scale stays on white");
     command.add_option("--units", options->units, "Unit of the files: mm, cm or m (default: mm)")
         ->type_name("UNIT");
     add_json(command, options->json);

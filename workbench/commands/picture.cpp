@@ -10,6 +10,7 @@
 #include "geometry/kernel/pending_files.h"
 #include "geometry/kernel/wording.h"
 #include "gpu/png.h"
+#include "gpu/transparency.h"
 #include "workbench/case/json_text.h"
 #include "workbench/commands/commands.h"
 #include "workbench/operations/shared/foreign_surface.h"
@@ -92,6 +93,16 @@ Drawn coloured(const Surface& surface, PictureOptions options, const PictureArgu
     return {draw(surface, options), "deviation, " + deviation_legend(deviation.full_colour)};
 }
 
+/// The file's bytes, and what its colours mean.
+std::pair<std::string, std::string> drawn_file(const Surface& surface, PictureOptions options,
+                                               const PictureArguments& arguments) {
+    const Drawn on_white = coloured(surface, options, arguments);
+    if (!arguments.transparent) return {png(on_white.picture), on_white.legend};
+    options.background = Colour::Zero();
+    const Drawn on_black = coloured(surface, options, arguments);
+    return {png(without_background(on_black.picture, on_white.picture)), on_white.legend};
+}
+
 }  // namespace
 
 void draw_picture(const PictureArguments& arguments) {
@@ -99,10 +110,10 @@ void draw_picture(const PictureArguments& arguments) {
     const Vec3 view = view_of(arguments.view);
     const PictureOptions options{
         .width = arguments.size, .height = arguments.size, .view = view, .up = upward_for(view)};
-    const auto [picture, legend] =
-        coloured(read_foreign_surface(arguments.surface, arguments.units), options, arguments);
+    const auto [bytes, legend] =
+        drawn_file(read_foreign_surface(arguments.surface, arguments.units), options, arguments);
     PendingFiles files;
-    files.add_text(arguments.out, png(picture));
+    files.add_text(arguments.out, bytes);
     files.commit();
     if (arguments.json)
         std::cout << text_from_json(

@@ -7,6 +7,7 @@
 
 #include "workbench/case/edit_record.h"
 #include "workbench/window/model/key_table.h"
+#include "workbench/window/model/picture_look.h"
 #include "workbench/window/model/workplace.h"
 #include "workbench/window/view/thumbnails.h"
 #include "workbench/window/widgets/ui.h"
@@ -39,6 +40,7 @@ struct Shown {
     std::optional<NoteInProgress> note;     ///< the dialog for it
     std::set<EditId> unfolded;              ///< first edits of strokes that the rail lists singly
     bool view = false;                      ///< the view's options
+    PictureLook picture;                    ///< of those that are saved
     bool compact = false;                   ///< little room: tool buttons without labels
     KeyCommands keys;                       ///< of this frame
 };

@@ -118,6 +118,26 @@ void switch_clip(PanelContext& c) {
     c.place.view.switch_clip(scene != nullptr && scene->volume_mesh);
 }
 
+/// Size and background of saved pictures.
+void draw_picture_look(PanelContext& c) {
+    const std::vector<std::string> sizes = {"1\u00D7", "2\u00D7", "4\u00D7"};
+    const std::vector<std::string> backgrounds = {"As seen", "White", "Transparent"};
+    PictureLook& look = c.shown.picture;
+    const float gap = c.ui.grid(0.75F), wide = c.ui.em * 4;
+    std::string size = sizes.at(look.factor == 4 ? 2 : look.factor == 2 ? 1 : 0);
+    if (choice(c.ui, "view.picture.size", sizes, size, wide))
+        look.factor = size == sizes[2] ? 4 : size == sizes[1] ? 2 : 1;
+    help_on_hover(c.ui, "Size of the picture, times that of the view");
+    ImGui::SameLine(0, gap);
+    std::string back = backgrounds.at(static_cast<std::size_t>(look.background));
+    if (choice(c.ui, "view.picture.background", backgrounds, back))
+        look.background = static_cast<PictureBackground>(std::ranges::find(backgrounds, back) -
+                                                         backgrounds.begin());
+    help_on_hover(c.ui,
+                  "Background. Larger pictures, and those on white or on nothing, show the model "
+                  "alone, without legend and marks");
+}
+
 void draw_modes(PanelContext& c) {
     ViewChoice& view = c.place.view;
     group_heading(c.ui, "View modes and measuring");
@@ -138,6 +158,7 @@ void draw_modes(PanelContext& c) {
                 .width = ImGui::GetContentRegionAvail().x,
                 .help = "Save the view as a PNG file  F12"}))
         c.place.ask(FileQuestion::Picture);
+    draw_picture_look(c);
 }
 
 void draw_layers(PanelContext& c) {

@@ -9,6 +9,7 @@
 
 #include "geometry/kernel/whole_file.h"
 #include "gpu/png.h"
+#include "gpu/transparency.h"
 #include "workbench/session/task.h"
 
 namespace vesselbench {
@@ -75,12 +76,28 @@ void ViewPicture::collect(Document& document) {
         document.tell(make_message(MessageKind::Error, saving.problem()));
 }
 
-bool ViewPicture::update(PanelContext& c, const ScreenRect& view) {
+void ViewPicture::save(const fs::path& file, const PictureLook& look, const Draw& draw) {
+    const bool clear = look.background == PictureBackground::Transparent;
+    const auto first = look.background == PictureBackground::Theme
+                           ? draw(look.factor, std::nullopt)
+                           : draw(look.factor, Colour(Colour::Ones()));
+    const Picture on_black = clear ? draw(look.factor, Colour(Colour::Zero())) : Picture{};
+    impl_->saving.start_after([first, on_black, clear, file](const Progress&) {
+        write_file(file, clear ? png(without_background(on_black, first)) : png(first));
+        return file;
+    });
+}
+
+bool ViewPicture::update(PanelContext& c, const ScreenRect& view, const Draw& draw) {
     Impl& own = *impl_;
     collect(c.place.document);
     if (own.saving.pending()) return false;
     const fs::path file = c.place.take_picture_file();
     if (file.empty()) return false;
+    if (draw && !c.shown.picture.is_as_seen()) {
+        save(file, c.shown.picture, draw);
+        return false;
+    }
     own.file = file;
     own.rect = view;
     own.window_height = ImGui::GetIO().DisplaySize.y;

@@ -3,7 +3,9 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 
+#include "gpu/picture.h"
 #include "workbench/window/panels/panel_context.h"
 
 namespace vesselbench {
@@ -18,8 +20,14 @@ public:
     ViewPicture(const ViewPicture&) = delete;
     ViewPicture& operator=(const ViewPicture&) = delete;
 
-    /// Once a frame. \return true if this frame is to be saved: it should show no controls
-    [[nodiscard]] bool update(PanelContext& context, const ScreenRect& view);
+    /// Draws the model alone. \param background none: the theme's
+    using Draw = std::function<Picture(int factor, const std::optional<Colour>& background)>;
+
+    /// Once a frame.
+    /// \param draw null: the view shows more than the model, and is saved as it is seen
+    /// \return true if this frame is to be saved: it should show no controls
+    /// \throw what draw throws
+    [[nodiscard]] bool update(PanelContext& context, const ScreenRect& view, const Draw& draw);
 
     /// Tells what became of a picture; part of update().
     void collect(Document& document);
@@ -27,6 +35,8 @@ public:
     [[nodiscard]] bool pending() const;
 
 private:
+    void save(const std::filesystem::path& file, const PictureLook& look, const Draw& draw);
+
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };

@@ -232,6 +232,21 @@ unsigned ViewScene::draw(Renderer& renderer, const Ui& ui) {
     return 0;
 }
 
+Picture ViewScene::picture(Renderer& renderer, const Ui& ui, int factor,
+                           const std::optional<Colour>& background) const {
+    Ui scaled;  // lines get wider with the picture
+    scaled.theme = background ? light_theme() : ui.theme;
+    scaled.em = ui.em * static_cast<float>(factor);
+    SceneView view = scene_view(scaled);
+    view.rectangle.width *= factor;
+    view.rectangle.height *= factor;
+    if (background) view.background = Background{*background, *background};
+    RenderTarget target(view.rectangle.width, view.rectangle.height);
+    target.bind();
+    renderer.draw(view, layers(scaled));
+    return target.picture();
+}
+
 /// Drawn by the processor, a picture without smooth edges takes half the time: what the mouse moves
 /// follows it better so, and is drawn again when it is let go.
 int ViewScene::wanted_samples() {

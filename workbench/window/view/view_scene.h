@@ -110,6 +110,17 @@ public:
     /// Draws if anything has changed. \return the picture's texture; 0: it cannot be drawn
     [[nodiscard]] unsigned draw(Renderer& renderer, const Ui& ui);
 
+    /// True if the view shows the model, and no other one in its place or beside it.
+    [[nodiscard]] bool shows_model_alone() const {
+        return !hides_model() && !gallery_.is_on() && rect_.width == area_.width;
+    }
+
+    /// The model drawn again, without marks and legend. Needs the window's OpenGL context.
+    /// \param factor times the view's size \param background none: the theme's
+    /// \throw GpuUnavailable if the device cannot draw this size
+    [[nodiscard]] Picture picture(Renderer& renderer, const Ui& ui, int factor,
+                                  const std::optional<Colour>& background) const;
+
     /// True once it was drawn.
     [[nodiscard]] bool is_drawn() const { return target_.has_value(); }
 

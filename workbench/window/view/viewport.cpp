@@ -1,5 +1,6 @@
 #include "workbench/window/view/viewport.h"
 
+#include <exception>
 #include <optional>
 #include <utility>
 
@@ -68,6 +69,7 @@ struct Viewport::Impl {
     void draw_model_marks(PanelContext& c, const PixelView& screen, bool over_view);
     void draw_controls(PanelContext& c, const ScreenRect& area);
     void draw_frame(PanelContext& c, const ScreenRect& area);
+    [[nodiscard]] bool save_picture(PanelContext& c, const ScreenRect& area);
 
     void look() { scene.look_from(camera.camera(), camera.is_inside()); }
 
@@ -302,6 +304,21 @@ void Viewport::Impl::draw_frame(PanelContext& c, const ScreenRect& area) {
     draw_legend(c, scene, clipped);
 }
 
+/// \return true if this frame is the picture
+bool Viewport::Impl::save_picture(PanelContext& c, const ScreenRect& area) {
+    const auto alone = [&](int factor, const std::optional<Colour>& background) {
+        return scene.picture(renderer, c.ui, factor, background);
+    };
+    try {
+        return picture.update(c, area,
+                              scene.shows_model_alone() ? ViewPicture::Draw(alone) : nullptr);
+    } catch (const std::exception& error) {
+        c.place.document.tell(make_message(
+            MessageKind::Error, std::string("the picture cannot be drawn: ") + error.what()));
+        return false;
+    }
+}
+
 void Viewport::Impl::draw(PanelContext& c, const ScreenRect& area) {
     begin_frame(c.ui, "view", area,
                 {.back = c.ui.theme.view_below, .padding = 0, .scrolls = false});
@@ -312,7 +329,7 @@ void Viewport::Impl::draw(PanelContext& c, const ScreenRect& area) {
     guard.run([&] { pick_places(c, mouse); });
     if (const unsigned texture = scene.draw(renderer, c.ui); texture != 0)
         draw_texture(texture, area);
-    const bool saved = picture.update(c, area);
+    const bool saved = save_picture(c, area);
     draw_overlays(c, mouse.over);
     if (!saved) draw_controls(c, area);
     draw_frame(c, area);
