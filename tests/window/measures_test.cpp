@@ -105,6 +105,7 @@ SCENARIO("Clicks become measures", "[window][measures]") {
         CHECK(measures.all().size() == 1);
         measures.take_back();
         CHECK(measures.all().empty());
+        CHECK_FALSE(measures.can_take_back());
     }
 }
 
@@ -140,6 +141,7 @@ SCENARIO("Measures of a project come back", "[window][measures]") {
     }
     MeasureList again({});
     again.open(project, "");
+    CHECK_FALSE(again.can_take_back());
     again.click(Vec3(0, 0, 0), kSurface);
     again.click(Vec3(2, 0, 0), kSurface);
     CHECK(again.close().empty());

@@ -26,11 +26,13 @@ MeasureList::MeasureList(std::function<void()> wake)
 
 void MeasureList::open(const std::filesystem::path& project, std::string read_only) {
     begin_next();
+    made_ = 0;
     list_.open(project, std::move(read_only));
 }
 
 std::string MeasureList::close() {
     begin_next();
+    made_ = 0;
     return list_.close();
 }
 
@@ -81,10 +83,11 @@ void MeasureList::keep(KeptMeasure measure, const MeasuredModel& model) {
         measure.name = free_name(measures, measure.kind);
         measures.push_back(std::move(measure));
     });
+    ++made_;
 }
 
 void MeasureList::take_back() {
-    if (!first_ && !all().empty()) remove(all().size() - 1);
+    if (!first_ && made_ > 0) remove(all().size() - 1);
     begin_next();
 }
 
@@ -95,6 +98,7 @@ void MeasureList::rename(std::size_t measure, const std::string& name) {
 
 void MeasureList::remove(std::size_t measure) {
     if (measure + 1 == all().size()) begin_next();
+    if (measure + made_ >= all().size()) --made_;
     list_.change([&](std::vector<KeptMeasure>& measures) {
         measures.erase(measures.begin() + static_cast<std::ptrdiff_t>(measure));
     });

@@ -52,7 +52,11 @@ public:
     /// The next click begins another distance.
     void begin_next();
 
-    /// Takes back the point that waits, else removes the newest measure.
+    /// True if there is a point that waits, or a measure that was made since the project was
+    /// opened.
+    [[nodiscard]] bool can_take_back() const { return first_ || made_ > 0; }
+
+    /// Takes back the point that waits, else removes the newest of these measures.
     void take_back();
 
     /// The point of a distance that waits for its second one.
@@ -72,6 +76,7 @@ private:
     std::optional<Vec3> first_;
     MeasuredModel model_;     ///< of the distance that is being clicked
     bool lengthens_ = false;  ///< the newest measure is that distance
+    std::size_t made_ = 0;    ///< since the project was opened; they are the last ones
 };
 
 /// Where to look at a measure: the middle of its points [mm].

@@ -111,7 +111,7 @@ void MeasuringTool::draw_strip(PanelContext& c, ViewStrips& strips) {
         measures.begin_next();
     ViewStrips::next(ui);
     if (icon_button(c.ui, "measure.clear", icons::kDelete, "Remove the last measure",
-                    measures.first_point() || !measures.all().empty()))
+                    measures.can_take_back()))
         measures.take_back();
     ViewStrips::next(ui);
     if (icon_button(c.ui, "measure.close", icons::kClose, "Stop measuring  Esc"))
