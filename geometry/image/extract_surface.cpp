@@ -354,6 +354,7 @@ ExtractionParameters SurfaceExtractor::decided(ExtractionParameters parameters,
             source_->image, mask_of_labels(*source_->mask, parameters.labels), progress);
     parameters.threshold = result.threshold;
     parameters.inside_below = result.inside_below;
+    parameters.local_levels = parameters.local_levels && has_levels(*source_, result);
     return parameters;
 }
 

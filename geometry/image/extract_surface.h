@@ -105,8 +105,8 @@ public:
     ~SurfaceExtractor();
     SurfaceExtractor(SurfaceExtractor&&) noexcept;
 
-    /// The parameters with method, side and threshold decided as extract() would, so that another
-    /// image of the same content, such as a coarser one, is treated alike.
+    /// The parameters with method, side, threshold and local levels decided as extract() would, so
+    /// that another image of the same content, such as a coarser one, is treated alike.
     /// \throw as extract_surface
     [[nodiscard]] ExtractionParameters decided(ExtractionParameters parameters,
                                                const Progress& progress = {});

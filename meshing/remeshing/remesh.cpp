@@ -321,8 +321,19 @@ void check_extent(const Surface& surface, const RemeshParameters& parameters, do
     if (parameters.min_edge) require_in_proportion("min_edge", *parameters.min_edge, surface, 1.0);
 }
 
-RemeshReport decided(const Surface& surface, const RemeshParameters& parameters,
-                     const std::vector<double>& radii, const std::vector<double>& openings) {
+struct Decided {
+    std::vector<double> radii;  ///< #V [mm]
+    RemeshReport report;
+};
+
+Decided decided(const Surface& surface, const RemeshParameters& parameters,
+                const CenterlineGraph* lines, const Progress& progress) {
+    if (surface.empty()) throw InvalidInput("there is no surface to remesh");
+    if (parameters.edge && !(*parameters.edge > 0.0 && std::isfinite(*parameters.edge)))
+        throw InvalidInput("edge = " + std::to_string(*parameters.edge) + " must be above 0 mm");
+    const std::vector<double> openings = opening_radii(surface);
+    std::vector<double> radii =
+        limited_at_openings(surface, local_radii(surface, lines, progress), openings);
     RemeshReport report;
     report.usual_radius = usual_radius(surface, radii);
     check_extent(surface, parameters, report.usual_radius);
@@ -332,19 +343,28 @@ RemeshReport decided(const Surface& surface, const RemeshParameters& parameters,
         report.edge * std::min(kLeastEdge, thin_radius(radii, openings) / report.usual_radius));
     report.max_edge = parameters.max_edge.value_or(kMostEdge * report.edge);
     report.triangles_before = surface.triangle_count();
-    return report;
+    return {std::move(radii), report};
 }
 
-Surface graded(const Surface& surface, const std::vector<double>& radii, RemeshReport& report,
-               const RemeshParameters& parameters, const Progress& progress) {
+/// Target edges of the vertices [mm].
+std::vector<double> graded_sizes(const Surface& surface, const std::vector<double>& radii,
+                                 RemeshReport& report, const RemeshParameters& parameters,
+                                 const Progress& progress) {
     std::vector<double> sizes = sizing_field(surface, radii,
                                              {.edge = report.edge,
                                               .min_edge = report.min_edge,
                                               .max_edge = report.max_edge,
                                               .gradation = parameters.gradation,
                                               .resolution = parameters.resolution},
-                                             progress.part(0.0, 0.2));
+                                             progress);
     if (!parameters.edge) limit_count(surface, sizes, report);
+    return sizes;
+}
+
+Surface graded(const Surface& surface, const std::vector<double>& radii, RemeshReport& report,
+               const RemeshParameters& parameters, const Progress& progress) {
+    std::vector<double> sizes =
+        graded_sizes(surface, radii, report, parameters, progress.part(0.0, 0.2));
     return remeshed_until_sound(surface, std::move(sizes), parameters.gradation, report,
                                 progress.part(0.2, 1.0));
 }
@@ -370,15 +390,18 @@ void check_volume(const Surface& before, const Surface& after, RemeshReport& rep
 
 }  // namespace
 
+RemeshReport decided_edges(const Surface& surface, const RemeshParameters& parameters,
+                           const CenterlineGraph* lines, const Progress& progress) {
+    auto [radii, report] = decided(surface, parameters, lines, progress.part(0.0, 0.5));
+    if (parameters.mode == RemeshMode::Graded)
+        static_cast<void>(
+            graded_sizes(surface, radii, report, parameters, progress.part(0.5, 1.0)));
+    return report;
+}
+
 Remeshed remesh(const Surface& surface, const RemeshParameters& parameters,
                 const CenterlineGraph* lines, const Progress& progress) {
-    if (surface.empty()) throw InvalidInput("there is no surface to remesh");
-    if (parameters.edge && !(*parameters.edge > 0.0 && std::isfinite(*parameters.edge)))
-        throw InvalidInput("edge = " + std::to_string(*parameters.edge) + " must be above 0 mm");
-    const std::vector<double> openings = opening_radii(surface);
-    const std::vector<double> radii = limited_at_openings(
-        surface, local_radii(surface, lines, progress.part(0.0, 0.1)), openings);
-    RemeshReport report = decided(surface, parameters, radii, openings);
+    auto [radii, report] = decided(surface, parameters, lines, progress.part(0.0, 0.1));
     Surface result = parameters.mode == RemeshMode::Uniform
                          ? uniform(surface, report, parameters.gradation, progress.part(0.1, 1.0))
                          : graded(surface, radii, report, parameters, progress.part(0.1, 1.0));

@@ -44,6 +44,13 @@ struct Remeshed {
     RemeshReport report;
 };
 
+/// The edge lengths that remesh() takes, without remeshing: usual_radius, edge, min_edge, max_edge
+/// and limited of its report.
+/// \throw as remesh()
+[[nodiscard]] RemeshReport decided_edges(const Surface& surface, const RemeshParameters& parameters,
+                                         const CenterlineGraph* lines = nullptr,
+                                         const Progress& progress = {});
+
 /// Remeshes the surface with well-shaped triangles of a target size: graded (small where the
 /// vessel is thin, curved, or close to another wall) or uniform. Vertices lie on the input, except
 /// for the small lift that restores the volume lost to flat triangles. Patches are kept; rims of

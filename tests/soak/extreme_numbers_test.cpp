@@ -71,12 +71,22 @@ test::ExampleGround ground(const soak::SmallFiles& files) {
             .mask = file("mask.nrrd")};
 }
 
+/// A value with which the condition holds.
+Value met(const Operation& operation, const Condition& condition,
+          const test::ExampleGround& ground) {
+    if (!condition.values.empty()) return condition.values.front();
+    const Parameter& needed = find_parameter(operation, condition.parameter);
+    if (needed.type == ParameterType::File) return ground.mask;
+    if (needed.meaning == Meaning::Tip) return ground.end;
+    return checked_value(needed, Value("1"));
+}
+
 /// What the operation needs beside the parameter, so that its number matters.
 Arguments companions(const Operation& operation, const Parameter& parameter,
                      const soak::SmallFiles& files) {
     Arguments all = test::example_arguments(operation, ground(files));
     if (const auto& condition = parameter.only_with) {
-        all.set(condition->parameter, condition->values.front());
+        all.set(condition->parameter, met(operation, *condition, ground(files)));
         if (condition->parameter == "staircase") all.set("stack_axis", Vec3(0, 0, 1));
     }
     return all;

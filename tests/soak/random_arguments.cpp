@@ -99,7 +99,7 @@ private:
         if (is_decision(parameter) && !dice_.chance(kOdd)) return;
         if (parameter.name == "device") return;  // results of a GPU are equal to a tolerance only
         if (parameter.only_with && !drawn_.has(parameter.only_with->parameter))
-            drawn_.set(parameter.only_with->parameter, one_of(parameter.only_with->values, dice_));
+            drawn_.set(parameter.only_with->parameter, met(*parameter.only_with));
         drawn_.set(parameter.name, value(parameter));
     }
 
@@ -107,6 +107,12 @@ private:
     static bool is_decision(const Parameter& parameter) {
         return parameter.help.find("decisions of an earlier run") != std::string::npos ||
                parameter.help.starts_with("with planes");
+    }
+
+    /// A value with which the condition most likely holds.
+    Value met(const Condition& condition) {
+        if (!condition.values.empty()) return one_of(condition.values, dice_);
+        return value(find_parameter(operation_, condition.parameter));
     }
 
     Value value(const Parameter& parameter) {

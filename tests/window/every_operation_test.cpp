@@ -85,6 +85,7 @@ void fill(Driver& window, const Arguments& values) {
     for (const auto& [name, value] : values.values()) {
         const std::string text = to_text(value);
         INFO(name << "=" << text);
+        if (!window.reveal("field." + name)) REQUIRE(window.click_item("field.more"));
         REQUIRE(window.fill_item("field." + name, text));
         REQUIRE(window.app().place().form()->field(name).text == text);
     }

@@ -4,6 +4,7 @@
 
 #include "geometry/kernel/errors.h"
 #include "workbench/operations/table.h"
+#include "workbench/window/model/automatic_values.h"
 
 using namespace vesselbench;
 using Catch::Matchers::Contains;
@@ -75,6 +76,43 @@ SCENARIO("Fields without effect are inactive and not given", "[window][form]") {
     CHECK_FALSE(form.field("margin").active);
     CHECK(form.valid());
     CHECK_FALSE(form.arguments().has("margin"));
+}
+
+SCENARIO("A field may need that another one is given", "[window][form]") {
+    OperationForm form(find_operation("extract-surface"));
+    CHECK_FALSE(form.field("contrast").active);
+    form.set("diffusion", "0");
+    CHECK_FALSE(form.field("contrast").active);
+    form.set("diffusion", "5");
+    CHECK(form.field("contrast").active);
+    OperationForm clip(find_operation("clip-opening"));
+    clip.set("distance", "3");
+    CHECK_FALSE(clip.arguments().has("distance"));
+    clip.set("tip", "1,2,3");  // what was set while it had no effect is kept
+    CHECK(clip.arguments().real("distance") == 3.0);
+}
+
+SCENARIO("What the operation decides shows in empty fields", "[window][form]") {
+    OperationForm form(find_operation("smooth"));
+    CHECK(unset_text(form.field("filter")) == "automatic");
+    CHECK(form.set_automatic({{"filter", "taubin"}, {"lambda", 0.123456}, {"rings", 1.0}}));
+    CHECK_FALSE(form.set_automatic({{"filter", "taubin"}, {"lambda", 0.123456}, {"rings", 1.0}}));
+    CHECK(unset_text(form.field("filter")) == "automatic: taubin");
+    CHECK(unset_text(form.field("lambda")) == "automatic: 0.123");
+    CHECK(unset_text(form.field("rings")) == "1");  // its default
+    CHECK(form.arguments() == Arguments{});
+    THEN("fields apply as it decides") {
+        CHECK(form.field("mu").active);
+        CHECK_FALSE(form.field("beta").active);
+        form.set("filter", "laplace-hc");
+        CHECK_FALSE(form.field("mu").active);
+        CHECK(form.field("beta").active);
+    }
+    THEN("a decision that is not known any more is not shown") {
+        CHECK(form.set_automatic({}));
+        CHECK(unset_text(form.field("filter")) == "automatic");
+    }
+    CHECK(unset_text(OperationForm(find_operation("load-surface")).field("file")) == "required");
 }
 
 SCENARIO("A form misses required parameters", "[window][form]") {

@@ -57,11 +57,10 @@ std::vector<Diagnostic> arguments_without_effect(const Operation& operation, con
     std::vector<Diagnostic> warnings;
     for (const Parameter& parameter : operation.parameters) {
         if (!parameter.only_with || !given.has(parameter.name)) continue;
-        const auto value = resolved.values().find(parameter.only_with->parameter);
-        const bool holds =
-            value != resolved.values().end() &&
-            std::ranges::count(parameter.only_with->values, to_text(value->second)) > 0;
-        if (!holds)
+        const std::string& needed = parameter.only_with->parameter;
+        const auto value = resolved.values().find(needed);
+        const std::string text = value == resolved.values().end() ? "" : to_text(value->second);
+        if (!holds(*parameter.only_with, find_parameter(operation, needed), text))
             warnings.push_back({.code = "argument-without-effect",
                                 .operation = operation.name,
                                 .words = {{"argument", parameter.name},

@@ -59,6 +59,10 @@ struct Operation {
     /// What the form of a new edit starts with, where the scene or the variant, which may have a
     /// purpose's name, speaks for other values than the defaults; null: for none.
     Arguments (*suggested)(const Scene& scene, const std::string& variant) = nullptr;
+    /// What it would decide on a scene without a run, by parameter: also of others than those that
+    /// are left out; not of all. For any thread. Throws what the operation throws. Null: nothing.
+    Arguments (*decided)(const Scene& scene, const CheckedArguments& arguments,
+                         const Progress& progress) = nullptr;
     std::string thesis = {};  ///< section numbers, "4.2.7"; may be empty
     RecipePart recipe = {};
     OperationSearch search = {};

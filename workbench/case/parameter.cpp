@@ -194,10 +194,15 @@ bool in_range(const Parameter& parameter, const Value& value) {
 }  // namespace
 
 std::string to_string(const Condition& condition) {
-    std::string text = condition.parameter + "=";
+    std::string text = condition.parameter + (condition.values.empty() ? "" : "=");
     for (std::size_t i = 0; i < condition.values.size(); ++i)
         text += (i > 0 ? " or " : "") + condition.values[i];
     return text;
+}
+
+bool holds(const Condition& condition, const Parameter& parameter, const std::string& text) {
+    if (!condition.values.empty()) return std::ranges::count(condition.values, text) > 0;
+    return !text.empty() && !(parameter.default_value && text == to_text(*parameter.default_value));
 }
 
 Value checked_value(const Parameter& parameter, const Value& value) {

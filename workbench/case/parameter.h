@@ -33,10 +33,18 @@ enum class Meaning {
 /// An argument without which another one has no effect: "distance=margin".
 struct Condition {
     std::string parameter;
-    std::vector<std::string> values;  ///< any of them, in the command line's form
+    /// Any of them, in the command line's form; empty: any but the parameter's default.
+    std::vector<std::string> values = {};
 };
 
-[[nodiscard]] std::string to_string(const Condition& condition);  ///< "filter=a or b"
+[[nodiscard]] std::string to_string(const Condition& condition);  ///< "filter=a or b", "tip"
+
+/// How forms show a parameter.
+enum class Use {
+    Usual,
+    Rare,     ///< with others that are seldom needed, folded away unless it is given
+    Recorded  ///< an earlier run or a stroke fills it in: shown only where it is given
+};
 
 /// One documented parameter: the command line's option, the check and its error text, the recipe's
 /// key and the page docs/operations.md are all generated from this.
@@ -55,7 +63,13 @@ struct Parameter {
     bool above_minimum = false;               ///< the minimum itself is not allowed
     std::optional<Condition> only_with = {};  ///< without it, no effect; none: unconditional
     Meaning meaning = Meaning::None;
+    Use use = Use::Usual;
 };
+
+/// \param parameter that the condition names
+/// \param text its value in the command line's form; empty: it has none
+[[nodiscard]] bool holds(const Condition& condition, const Parameter& parameter,
+                         const std::string& text);
 
 /// The value in the parameter's type: an integer is accepted as a real number, three numbers as a
 /// point, a text is parsed.

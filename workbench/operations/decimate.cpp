@@ -214,6 +214,15 @@ private:
     Run run_;
 };
 
+Arguments decided_arguments(const Scene& scene, const CheckedArguments& arguments,
+                            const Progress&) {
+    Arguments decided = arguments;
+    const Surface& surface = surface_of(scene);
+    static_cast<void>(target_from(surface, decided));
+    decide_weights(scene, "decimate", *make_cpu_finder(surface), decided);
+    return decided;
+}
+
 /// The share that max_error alone has left.
 double share_left(const Surface& before, const Surface& after) {
     return static_cast<double>(after.triangle_count()) /
@@ -282,6 +291,7 @@ Operation decimate_operation() {
                 "and patches are kept",
             .parameters = parameter_table(),
             .start = &started<LiveDecimation>,
+            .decided = &decided_arguments,
             .thesis = "5.6, 7.2",
             .search = {.parameters = &searched_parameters,
                        .rivals = {"triangles"},

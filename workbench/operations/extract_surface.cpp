@@ -265,8 +265,22 @@ private:
     Arguments resolved_;
 };
 
+Arguments decided_arguments(const Scene& scene, const CheckedArguments& arguments,
+                            const Progress& progress) {
+    const ExtractionParameters decided =
+        SurfaceExtractor(image_of(scene), scene.mask)
+            .decided(extraction_parameters(arguments, scene.mask.has_value()), progress);
+    Arguments found{{"method", to_string(*decided.method)}};
+    if (decided.method == ExtractionMethod::Labels) return found;
+    found.set("threshold",
+              decided.local_levels ? Value(std::string("local")) : Value(*decided.threshold));
+    found.set("inside", std::string(*decided.inside_below ? "below" : "above"));
+    return found;
+}
+
 std::vector<Parameter> source_parameters() {
     using enum ParameterType;
+    const Condition of_intensities{"method", {"auto", "threshold", "masked"}};
     return {
         {.name = "method",
          .type = Choice,
@@ -283,31 +297,40 @@ std::vector<Parameter> source_parameters() {
                  "each place what the image's blur leaves of the contrast there, lower at thin "
                  "vessels; "
                  "default: local for intensities, 0 for a level set",
-         .choices = {"local", "midway"}},
-        {.name = "iso", .unit = "-", .help = "synonym of threshold, for level sets"},
+         .choices = {"local", "midway"},
+         .only_with = of_intensities},
+        {.name = "iso",
+         .unit = "-",
+         .help = "synonym of threshold, for level sets",
+         .only_with = of_intensities,
+         .use = Use::Recorded},
         {.name = "inside",
          .type = Choice,
          .help = "side of the threshold on which the vessel lies; default: above, or for a level "
                  "set the side away from the image's border",
-         .choices = {"above", "below"}},
+         .choices = {"above", "below"},
+         .only_with = of_intensities},
         {.name = "labels",
          .type = List,
          .help = "labels of the vessel, as 1,2,3; default: every label above 0",
          .minimum = 1,
+         .only_with = Condition{"method", {"auto", "labels", "masked"}},
          .meaning = Meaning::Labels},
         {.name = "mask_surface",
          .type = Choice,
          .default_value = "smooth",
          .help = "surface of labels: smooth, where it bends least with every voxel on its side, or "
-                 "midway between voxels, with their staircases; other methods ignore it",
-         .choices = {"smooth", "midway"}},
+                 "midway between voxels, with their staircases",
+         .choices = {"smooth", "midway"},
+         .only_with = Condition{"method", {"auto", "labels"}}},
         {.name = "dilation",
          .type = Integer,
          .unit = "voxels",
          .default_value = std::int64_t{1},
          .help = "dilation of the mask before it limits the intensities",
          .minimum = 0,
-         .maximum = 50},
+         .maximum = 50,
+         .only_with = Condition{"method", {"auto", "masked"}}},
         {.name = "component",
          .type = Choice,
          .default_value = "largest",
@@ -327,39 +350,46 @@ std::vector<Parameter> cleaning_parameters() {
              .default_value = std::int64_t{0},
              .help = "iterations of edge-preserving diffusion on intensities; 0: none",
              .minimum = 0,
-             .maximum = 1000},
+             .maximum = 1000,
+             .use = Use::Rare},
             {.name = "contrast",
              .unit = "-",
              .help = "differences above it count as edges in the diffusion; default: from the "
                      "image's noise",
              .minimum = 0.0,
-             .above_minimum = true},
+             .above_minimum = true,
+             .only_with = Condition{"diffusion"},
+             .use = Use::Rare},
             {.name = "gaussian",
              .unit = "mm",
              .default_value = 0.0,
              .help = "standard deviation of Gaussian smoothing; 0: none",
              .minimum = 0.0,
-             .maximum = 100.0},
+             .maximum = 100.0,
+             .use = Use::Rare},
             {.name = "opening",
              .type = Integer,
              .unit = "voxels",
              .default_value = std::int64_t{0},
              .help = "removes structures thinner than twice this plus one voxel; 0: none",
              .minimum = 0,
-             .maximum = 50},
+             .maximum = 50,
+             .use = Use::Rare},
             {.name = "closing",
              .type = Integer,
              .unit = "voxels",
              .default_value = std::int64_t{0},
              .help = "fills gaps narrower than twice this plus one voxel; 0: none",
              .minimum = 0,
-             .maximum = 50},
+             .maximum = 50,
+             .use = Use::Rare},
             {.name = "resample",
              .unit = "mm",
              .help = "edge of cubic voxels to resample to (cubic B-spline; masks by shape); "
                      "default: the image's own voxels",
              .minimum = 0.0,
-             .above_minimum = true}};
+             .above_minimum = true,
+             .use = Use::Rare}};
 }
 
 }  // namespace
@@ -373,6 +403,7 @@ Operation extract_surface_operation() {
             .summary = "make a surface from the image by threshold, labels or both",
             .parameters = std::move(parameters),
             .start = &started<LiveExtraction>,
+            .decided = &decided_arguments,
             .thesis = "3.2.1-3.2.3",
             .recipe = {.makes_source = true},
             .example = {.scene = ExampleScene::Image, .changed = {{"gaussian", 0.125}}}};

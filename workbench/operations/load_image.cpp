@@ -164,12 +164,16 @@ Operation load_image_operation() {
                  {.name = "mask_iso",
                   .unit = "-",
                   .help = "value that bounds the mask's inside; default: 0 for a level set, any "
-                          "label above 0 for labels"},
+                          "label above 0 for labels",
+                  .only_with = Condition{"mask"},
+                  .use = Use::Rare},
                  {.name = "mask_inside",
                   .type = Choice,
                   .help = "side of mask_iso that is inside; default: above, or for a level set the "
                           "side away from the image's border",
-                  .choices = {"above", "below"}}},
+                  .choices = {"above", "below"},
+                  .only_with = Condition{"mask"},
+                  .use = Use::Rare}},
             .run = &load_image,
             .isolated = true,
             .thesis = "3.2",

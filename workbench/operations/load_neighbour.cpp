@@ -69,7 +69,7 @@ Operation load_neighbour_operation() {
                             .default_value = "smooth",
                             .help = "surface of labels, as in extract-surface",
                             .choices = {"smooth", "midway"},
-                            .meaning = Meaning::None},
+                            .only_with = Condition{"labels"}},
                            units_parameter()},
             .run = &load,
             .isolated = true,

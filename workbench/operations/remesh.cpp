@@ -104,14 +104,26 @@ void add_warnings(const RemeshReport& figures, Outcome& outcome) {
                                     .remedies = another_edge});
 }
 
+/// An edge length that was asked for is no subject of the printer's resolution.
+void resolve_resolution(const Arguments& given, Arguments& resolved) {
+    if (given.has("edge") || given.text("mode") == "uniform") resolved.set("print_resolution", 0.0);
+}
+
+/// Of a print, the resolution is what was decided.
+void resolve_edges(const RemeshReport& figures, Arguments& resolved) {
+    if (resolved.real("print_resolution") > 0.0) return;
+    resolved.set("edge", figures.edge);
+    if (resolved.text("mode") != "graded") return;
+    resolved.set("min_edge", figures.min_edge);
+    resolved.set("max_edge", figures.max_edge);
+}
+
 Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) {
     const Surface& surface = surface_of(scene);
     Outcome outcome;
     outcome.resolved = arguments;
     const auto lines = centerlines(surface, outcome, progress.part(0.0, 0.3));
-    // An edge length that was asked for is no subject of the printer's resolution.
-    if (arguments.has("edge") || arguments.text("mode") == "uniform")
-        outcome.resolved.set("print_resolution", 0.0);
+    resolve_resolution(arguments, outcome.resolved);
     std::optional<FeatureRegions> features;
     if (const auto angle = arguments.optional_real("feature_angle"))
         features = split_at_features(surface, *angle, arguments.real("feature_size"));
@@ -121,16 +133,24 @@ Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) 
     if (features) remeshed.surface = features->restored(remeshed.surface);
     require_openings(surface, remeshed);
     const RemeshReport& figures = remeshed.report;
-    const bool for_print = outcome.resolved.real("print_resolution") > 0.0;
-    if (!for_print) outcome.resolved.set("edge", figures.edge);
-    if (arguments.text("mode") == "graded" && !for_print) {
-        outcome.resolved.set("min_edge", figures.min_edge);
-        outcome.resolved.set("max_edge", figures.max_edge);
-    }
+    resolve_edges(figures, outcome.resolved);
     outcome.report = report_from(figures, features);
     add_warnings(figures, outcome);
     outcome.scene = with_surface(scene, std::move(remeshed.surface));
     return outcome;
+}
+
+Arguments decided_arguments(const Scene& scene, const CheckedArguments& arguments,
+                            const Progress& progress) {
+    const Surface& surface = surface_of(scene);
+    Outcome outcome;
+    outcome.resolved = arguments;
+    const auto lines = centerlines(surface, outcome, progress.part(0.0, 0.5));
+    resolve_resolution(arguments, outcome.resolved);
+    resolve_edges(decided_edges(surface, parameters_from(outcome.resolved), lines.get(),
+                                progress.part(0.5, 1.0)),
+                  outcome.resolved);
+    return outcome.resolved;
 }
 
 /// The edge that print_resolution, or the range of edges, has made.
@@ -161,61 +181,72 @@ std::vector<SearchedParameter> searched_parameters(const Surface& surface, bool 
 
 std::vector<Parameter> parameters() {
     using enum ParameterType;
-    return {{.name = "mode",
-             .type = Choice,
-             .default_value = "graded",
-             .help = "graded: smaller where the vessel is thin, curved, or close to another wall; "
-                     "uniform: one edge length",
-             .choices = {"graded", "uniform"}},
-            {.name = "edge",
-             .unit = "mm",
-             .help = "edge length at the vessel's typical radius (the median over the wall); "
-                     "default: 0.28 of that radius, which is 22 triangles around",
-             .minimum = 0.0,
-             .above_minimum = true},
-            {.name = "min_edge",
-             .unit = "mm",
-             .help = "graded: shortest edge; default: a fifth of edge, or shorter where the vessel "
-                     "is so thin",
-             .minimum = 0.0,
-             .above_minimum = true},
-            {.name = "max_edge",
-             .unit = "mm",
-             .help = "graded: longest edge; default: twice edge",
-             .minimum = 0.0,
-             .above_minimum = true},
-            {.name = "radius",
-             .type = Choice,
-             .default_value = "centerlines",
-             .help = "source of the vessel's radius: centerlines, or rays across the lumen "
-                     "(faster; also used if no centerlines can be found)",
-             .choices = {"centerlines", "rays"}},
-            {.name = "gradation",
-             .unit = "-",
-             .default_value = 1.5,
-             .help = "graded: largest ratio of neighbouring edge lengths",
-             .minimum = 1.05,
-             .maximum = 3.0},
-            {.name = "feature_angle",
-             .unit = "deg",
-             .help = "also keep sharp edges, which bend by more than this (90: a cube's) and "
-                     "surround a region; default: only the rims of patches",
-             .minimum = 0.0,
-             .maximum = 180.0,
-             .above_minimum = true},
-            {.name = "feature_size",
-             .unit = "mm2",
-             .default_value = 0.0,
-             .help = "area from which on a region's edges are kept",
-             .minimum = 0.0},
-            {.name = "print_resolution",
-             .unit = "mm",
-             .default_value = 0.0,
-             .help = "graded, without edge: a print needs no triangles for less deviation than "
-                     "this: edges are as long as it allows, at most 0.7 of the radius; 0: no "
-                     "print; prepare --for rp uses 0.1",
-             .minimum = 0.0,
-             .maximum = 10.0}};
+    const Condition when_graded{"mode", {"graded"}};
+    return {
+        {.name = "mode",
+         .type = Choice,
+         .default_value = "graded",
+         .help = "graded: smaller where the vessel is thin, curved, or close to another wall; "
+                 "uniform: one edge length",
+         .choices = {"graded", "uniform"}},
+        {.name = "edge",
+         .unit = "mm",
+         .help = "edge length at the vessel's typical radius (the median over the wall); "
+                 "default: 0.28 of that radius, which is 22 triangles around",
+         .minimum = 0.0,
+         .above_minimum = true},
+        {.name = "min_edge",
+         .unit = "mm",
+         .help = "shortest edge; default: a fifth of edge, or shorter where the vessel is so thin",
+         .minimum = 0.0,
+         .above_minimum = true,
+         .only_with = when_graded},
+        {.name = "max_edge",
+         .unit = "mm",
+         .help = "longest edge; default: twice edge",
+         .minimum = 0.0,
+         .above_minimum = true,
+         .only_with = when_graded},
+        {.name = "radius",
+         .type = Choice,
+         .default_value = "centerlines",
+         .help = "source of the vessel's radius: centerlines, or rays across the lumen "
+                 "(faster; also used if no centerlines can be found)",
+         .choices = {"centerlines", "rays"},
+         .use = Use::Rare},
+        {.name = "gradation",
+         .unit = "-",
+         .default_value = 1.5,
+         .help = "largest ratio of neighbouring edge lengths",
+         .minimum = 1.05,
+         .maximum = 3.0,
+         .only_with = when_graded,
+         .use = Use::Rare},
+        {.name = "feature_angle",
+         .unit = "deg",
+         .help = "also keep sharp edges, which bend by more than this (90: a cube's) and "
+                 "surround a region; default: only the rims of patches",
+         .minimum = 0.0,
+         .maximum = 180.0,
+         .above_minimum = true,
+         .use = Use::Rare},
+        {.name = "feature_size",
+         .unit = "mm2",
+         .default_value = 0.0,
+         .help = "area from which on a region's edges are kept",
+         .minimum = 0.0,
+         .only_with = Condition{"feature_angle"},
+         .use = Use::Rare},
+        {.name = "print_resolution",
+         .unit = "mm",
+         .default_value = 0.0,
+         .help = "a print needs no triangles for less deviation than this: unless edge is given, "
+                 "edges are as long as it allows, at most 0.7 of the radius; 0: no print; "
+                 "prepare --for rp uses 0.1",
+         .minimum = 0.0,
+         .maximum = 10.0,
+         .only_with = when_graded,
+         .use = Use::Rare}};
 }
 
 }  // namespace
@@ -230,6 +261,7 @@ Operation remesh_operation() {
             "remesh the surface with well-shaped triangles; rims, flat caps and patches are kept",
         .parameters = parameters(),
         .run = &run,
+        .decided = &decided_arguments,
         .thesis = "3.3.2, 4.2.9",
         .search = {.parameters = &searched_parameters,
                    .rivals = {"min_edge", "max_edge"},

@@ -166,6 +166,14 @@ bool asks_for_gpu(const Arguments& arguments) {
     return device_choice_from(arguments.text("device")) == DeviceChoice::Gpu;
 }
 
+Arguments decided_arguments(const Scene& scene, const CheckedArguments& arguments,
+                            const Progress&) {
+    Arguments decided = arguments;
+    resolve_filter(scene, decided);
+    decide_context(scene, *make_cpu_finder(surface_of(scene)), decided);
+    return decided;
+}
+
 /// As the default recipe smooths a surface whose voxels are known.
 Arguments suggested_arguments(const Scene& scene, const std::string& variant) {
     if (!scene.sampling || scene.sampling->confidence <= 0.0 || !is_preset(variant)) return {};
@@ -181,14 +189,16 @@ std::vector<Parameter> parameter_table() {
          .default_value = false,
          .help = "add vertex attributes to the surface: smoothing_weight, staircase_weight, "
                  "staircase, cap, neighbour_distance, local_error, mean_curvature; export writes "
-                 "them to VTP and PLY, picture --colour shows them"});
+                 "them to VTP and PLY, picture --colour shows them",
+         .use = Use::Rare});
     table.push_back(
         {.name = "keep_unsmoothed",
          .type = ParameterType::Flag,
          .default_value = false,
          .help = "add vertex attributes to the surface: unsmoothed_x, unsmoothed_y and "
                  "unsmoothed_z, the places before; on coarse triangles, clip-opening measures the "
-                 "directions of vessels there, and drops them when it has opened all ends"});
+                 "directions of vessels there, and drops them when it has opened all ends",
+         .use = Use::Rare});
     table.push_back(
         {.name = "device",
          .type = ParameterType::Choice,
@@ -196,7 +206,8 @@ std::vector<Parameter> parameter_table() {
          .help = "device that finds the context and moves the vertices: auto and cpu give the same "
                  "bits everywhere; gpu is faster on large surfaces, is replayed by tolerance, and "
                  "falls back to the CPU without a usable GPU",
-         .choices = {"auto", "cpu", "gpu"}});
+         .choices = {"auto", "cpu", "gpu"},
+         .use = Use::Rare});
     return table;
 }
 
@@ -212,6 +223,7 @@ Operation smooth_operation() {
             .start = &started<LiveSmoothing>,
             .stays_here = &asks_for_gpu,
             .suggested = &suggested_arguments,
+            .decided = &decided_arguments,
             .thesis = "3.3.4, 5",
             .recipe = {.volume_remedies = {{.arguments = {{"iterations", ""}}},
                                            {.arguments = {{"filter", "taubin"}}}}},

@@ -93,14 +93,16 @@ Operation tetrahedralize_operation() {
                         .help = "largest ratio of a tetrahedron's circumradius to its shortest "
                                 "edge in TetGen; smaller is better and finer",
                         .minimum = 1.1,
-                        .maximum = 5.0},
+                        .maximum = 5.0,
+                        .use = Use::Rare},
                        {.name = "improve",
                         .type = Integer,
                         .default_value = std::int64_t{d.improve},
                         .help = "rounds of moving inner vertices and exchanging edges after "
                                 "TetGen; 0: none",
                         .minimum = 0,
-                        .maximum = 50}},
+                        .maximum = 50,
+                        .use = Use::Rare}},
         .run = &tetrahedralize,
         .isolated = true,
         .thesis = "3.3.3",

@@ -26,6 +26,10 @@ double width_from_sampling(const Scene& scene) {
     return kVoxels * scene.sampling->spacing.minCoeff();
 }
 
+Arguments decided_arguments(const Scene& scene, const CheckedArguments&, const Progress&) {
+    return {{"width", width_from_sampling(scene)}};
+}
+
 Diagnostic widened(const std::vector<NarrowPlace>& places, double width) {
     return {.code = "lumen-widened",
             .place = places.front().place,
@@ -92,6 +96,7 @@ Operation widen_operation() {
                             .minimum = 0.0,
                             .above_minimum = true}},
             .run = &run,
+            .decided = &decided_arguments,
             .thesis = "4.2.4",
             .example = {.given = {{"width", 2.25}}, .changed = {{"width", 2.375}}}};
 }

@@ -168,12 +168,13 @@ void App::recover(const std::string& error) {
 
 bool App::is_moving() const {
     return impl_->moved || impl_->place.document.busy() || impl_->place.searches_places() ||
-           impl_->place.slices().pending() || impl_->place.is_comparing() ||
-           impl_->place.view_data().pending() || impl_->place.live().pending() ||
-           impl_->place.quality().pending() || impl_->place.gallery().pending() ||
-           impl_->place.extraction().pending() || impl_->place.openings().pending() ||
-           impl_->viewport.pending() || impl_->place.wants_picture() ||
-           impl_->place.measures.pending() || impl_->thumbnails.pending() || impl_->files.pending();
+           impl_->place.finds_automatic() || impl_->place.slices().pending() ||
+           impl_->place.is_comparing() || impl_->place.view_data().pending() ||
+           impl_->place.live().pending() || impl_->place.quality().pending() ||
+           impl_->place.gallery().pending() || impl_->place.extraction().pending() ||
+           impl_->place.openings().pending() || impl_->viewport.pending() ||
+           impl_->place.wants_picture() || impl_->place.measures.pending() ||
+           impl_->thumbnails.pending() || impl_->files.pending();
 }
 
 std::optional<double> App::next_change() const {

@@ -144,7 +144,8 @@ std::vector<Parameter> dab_parameters(double weakest, const std::string& strengt
              .help = "the stroke, 10 numbers per dab: point x,y,z on the surface, outward normal "
                      "x,y,z, local radius of the vessel, radius of the brush along the surface, "
                      "strength and falloff as below; or use at",
-             .meaning = Meaning::Dabs},
+             .meaning = Meaning::Dabs,
+             .use = Use::Recorded},
             {.name = "at",
              .type = Point,
              .unit = "mm",

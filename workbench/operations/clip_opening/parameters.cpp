@@ -16,6 +16,7 @@ VoxelEdges voxel_edges(const Image& image) {
 /// Which end, and where it is cut.
 std::vector<Parameter> place_parameters() {
     using enum ParameterType;
+    const Condition of_one{"tip"};
     return {{.name = "tip",
              .type = Point,
              .unit = "mm",
@@ -26,12 +27,14 @@ std::vector<Parameter> place_parameters() {
              .help = "distance of the cut from the tip along the centerline; default: the nearest "
                      "straight place",
              .minimum = 0.0,
-             .above_minimum = true},
+             .above_minimum = true,
+             .only_with = of_one},
             {.name = "radii",
              .unit = "-",
              .help = "the same distance in radii of the vessel at its tip",
              .minimum = 0.0,
-             .above_minimum = true},
+             .above_minimum = true,
+             .only_with = of_one},
             {.name = "inlet",
              .type = List,
              .unit = "mm",
@@ -41,11 +44,13 @@ std::vector<Parameter> place_parameters() {
             {.name = "name",
              .type = Text,
              .help = "name of the opening at tip; default: inlet, outlet_1, outlet_2 ... by size",
+             .only_with = of_one,
              .meaning = Meaning::Name},
             {.name = "kind",
              .type = Choice,
              .help = "role of the opening at tip for the solver; default: by size",
-             .choices = {"inlet", "outlet"}}};
+             .choices = {"inlet", "outlet"},
+             .only_with = of_one}};
 }
 
 /// Which ends are opened, if all of them are looked at.
@@ -65,15 +70,18 @@ std::vector<Parameter> choice_parameters() {
             {.name = "inlet_ends",
              .type = List,
              .unit = "-",
-             .help = "the inlets by their numbers, as vesselbench ends lists them"},
+             .help = "the inlets by their numbers, as vesselbench ends lists them",
+             .use = Use::Rare},
             {.name = "open_ends",
              .type = List,
              .unit = "-",
-             .help = "ends that are opened, by their numbers"},
+             .help = "ends that are opened, by their numbers",
+             .use = Use::Rare},
             {.name = "close_ends",
              .type = List,
              .unit = "-",
-             .help = "ends that stay closed, by their numbers"},
+             .help = "ends that stay closed, by their numbers",
+             .use = Use::Rare},
             {.name = "accept_doubts",
              .type = Flag,
              .default_value = false,
@@ -82,20 +90,23 @@ std::vector<Parameter> choice_parameters() {
              .type = Flag,
              .default_value = false,
              .help = "cut every end perpendicular to its vessel, also one with a flat rim; fails "
-                     "at the first end that cannot be cut"},
+                     "at the first end that cannot be cut",
+              .use = Use::Rare},
             {.name = "check",
              .type = Choice,
              .default_value = "flow",
              .help = "flow: fail unless there are two openings and the largest end is one of "
                      "them; none: no such check",
-             .choices = {"flow", "none"}},
+             .choices = {"flow", "none"},
+             .use = Use::Rare},
             {.name = "closed_ends",
              .type = Choice,
              .default_value = "open",
              .help = "open: closed ends are opened where the surface's rims are not all its ends; "
                      "leave: closed ends and the caps at an image's border stay as they are, as a "
                      "print needs no openings",
-             .choices = {"open", "leave"}}};
+             .choices = {"open", "leave"},
+             .use = Use::Rare}};
 }
 
 /// What an earlier run decided.
@@ -108,18 +119,21 @@ std::vector<Parameter> resolved_parameters() {
          .help = "decisions of an earlier run, 10 numbers per opening: tip, point of the "
                  "plane, unit normal out of the vessel, 1 if a good cap was kept, 2 if a flat "
                  "rim was capped as it is, 3 if only its name changed; they are used as they are",
-         .meaning = Meaning::Planes},
+         .meaning = Meaning::Planes,
+         .use = Use::Recorded},
         {.name = "names",
          .type = Text,
          .help = "with planes: kind:name of each opening, separated by commas",
-         .meaning = Meaning::Patches},
+         .meaning = Meaning::Patches,
+         .use = Use::Recorded},
         {.name = "closings",
          .type = List,
          .unit = "mm",
          .help = "with planes: decisions of an earlier run, 4 numbers per end without an "
                  "opening: place, 0 if its rim was closed, 1 if its cap became wall, 2 if its "
                  "stub was removed",
-         .meaning = Meaning::Planes}};
+         .meaning = Meaning::Planes,
+         .use = Use::Recorded}};
 }
 
 }  // namespace

@@ -101,13 +101,19 @@ std::vector<Surface> neighbours_of(const Scene& scene, const std::vector<std::st
     return neighbours;
 }
 
+/// The same, fixed, so that neighbours loaded later change nothing.
+std::vector<std::string> decided_neighbours(const Scene& scene, const std::string& operation,
+                                            Arguments& arguments) {
+    std::vector<std::string> names = neighbour_names(scene, arguments, operation);
+    arguments.set("neighbours", joined(names, ","));
+    return names;
+}
+
 std::vector<double> distance_part(const Scene& scene, const std::string& operation,
                                   ContextFinder& finder, Arguments& arguments,
                                   ContextFigures& figures) {
     const std::string& name = arguments.text("distance");
-    const std::vector<std::string> names = neighbour_names(scene, arguments, operation);
-    arguments.set("neighbours",
-                  joined(names, ","));  // fixed, so that neighbours loaded later change nothing
+    const std::vector<std::string> names = decided_neighbours(scene, operation, arguments);
     const DistanceParameters parameters{.scaling = name == "margin" ? DistanceScaling::Margin
                                                    : name == "exponential"
                                                        ? DistanceScaling::Exponential
@@ -233,7 +239,8 @@ std::vector<Parameter> distance_parameter_table(const WeighedAction& action) {
          .help = "how the weights of staircases and distances are combined: multiply keeps what "
                  "either of them keeps; average also reduces staircases near neighbours",
          .choices = {"multiply", "average"},
-         .only_with = Condition{"distance", {"linear", "margin", "exponential"}}},
+         .only_with = Condition{"distance", {"linear", "margin", "exponential"}},
+         .use = Use::Rare},
         {.name = "neighbours",
          .type = Text,
          .help = "names of the neighbours to consider, a,b,...; default: all that are loaded",
@@ -286,6 +293,15 @@ ContextWeights context_weights(const Scene& scene, const WeightSettings& setting
                   Combination::Multiply);
     if (!found.weights.empty()) figures.mean_weight = mean(found.weights);
     return found;
+}
+
+void decide_weights(const Scene& scene, const std::string& operation, ContextFinder& finder,
+                    Arguments& arguments) {
+    check_stack_axis(arguments, operation);
+    if (arguments.flag("staircase"))
+        static_cast<void>(decided_staircases(scene, operation, finder, arguments));
+    if (arguments.text("distance") != "none")
+        static_cast<void>(decided_neighbours(scene, operation, arguments));
 }
 
 }  // namespace vesselbench

@@ -84,6 +84,12 @@ enum class Combination { Multiply, Average };
 [[nodiscard]] ContextWeights context_weights(const Scene& scene, const WeightSettings& settings,
                                              ContextFinder& finder, Arguments& arguments);
 
+/// Fills in these decisions without the weights.
+/// \param operation named in error texts
+/// \throw as context_weights()
+void decide_weights(const Scene& scene, const std::string& operation, ContextFinder& finder,
+                    Arguments& arguments);
+
 /// The reason if the weights are 0 on the whole surface: thresholds that find no staircase, or a
 /// margin that covers everything; else none.
 /// \param figures, resolved after context_weights

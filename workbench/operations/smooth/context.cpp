@@ -51,14 +51,16 @@ std::vector<Parameter> context_parameter_table() {
          .default_value = std::string("none"),
          .help = "voxel, diamond: no vertex leaves the voxel, or the octahedron in it, centred on "
                  "its start position",
-         .choices = {"none", "voxel", "diamond"}},
+         .choices = {"none", "voxel", "diamond"},
+         .use = Use::Rare},
         {.name = "cell",
          .type = Point,
          .unit = "mm",
          .help = "voxel size of constraint along the image's axes; default: the image's own",
          .minimum = 0.0,
          .above_minimum = true,
-         .only_with = Condition{"constraint", {"voxel", "diamond"}}}};
+         .only_with = Condition{"constraint", {"voxel", "diamond"}},
+         .use = Use::Rare}};
     const WeighedAction action{
         .doing = "smoothing",
         .staircase_help =
@@ -82,7 +84,8 @@ std::vector<Parameter> context_parameter_table() {
           .help = "where the smoothing has faded out: tau_max away from staircases, or (thesis, "
                   "Eq. 5.5 as printed) at the farthest vertex within tau_max",
           .choices = {"tau-max", "thesis"},
-          .only_with = when_staircase}});
+          .only_with = when_staircase,
+          .use = Use::Rare}});
     add(distance_parameter_table(action));
     Parameter& distance =
         *std::ranges::find_if(table, [](const Parameter& p) { return p.name == "distance"; });
@@ -99,7 +102,8 @@ std::vector<Parameter> context_parameter_table() {
           .default_value = true,
           .help = "also treat flat ends that are not openings as caps, including the first and "
                   "last slice of a mask; false: openings only",
-          .only_with = Condition{"caps", {"keep", "round"}}}});
+          .only_with = Condition{"caps", {"keep", "round"}},
+          .use = Use::Rare}});
     return table;
 }
 
@@ -114,6 +118,11 @@ Arguments arguments_in(const std::vector<Parameter>& table, const Arguments& arg
 Arguments context_arguments(const Arguments& arguments) {
     static const std::vector<Parameter> table = context_parameter_table();
     return arguments_in(table, arguments);
+}
+
+void decide_context(const Scene& scene, ContextFinder& finder, Arguments& arguments) {
+    static_cast<void>(constraint_part(scene, arguments));
+    decide_weights(scene, "smooth", finder, arguments);
 }
 
 SmoothingContext smoothing_context(const Scene& scene, ContextFinder& finder,

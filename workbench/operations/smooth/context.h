@@ -47,6 +47,10 @@ struct SmoothingContext {
     [[nodiscard]] double cap_weight() const { return caps_rounded ? 1.0 : 0.0; }
 };
 
+/// Fills in the decisions of smoothing_context() without its weights.
+/// \throw as smoothing_context()
+void decide_context(const Scene& scene, ContextFinder& finder, Arguments& arguments);
+
 /// Computes weights, fixed vertices and constraint, and fills in the decisions (stack_axis,
 /// tau_theta, tau_max, neighbours, cell).
 /// \param finder of the scene's surface

@@ -85,7 +85,8 @@ std::vector<Parameter> strength_parameters() {
                  "the pass, in between a mixture. 0 smooths more",
          .minimum = 0.0,
          .maximum = 1.0,
-         .only_with = Condition{"filter", {"laplace-hc"}}},
+         .only_with = Condition{"filter", {"laplace-hc"}},
+         .use = Use::Rare},
         {.name = "beta",
          .unit = "-",
          .default_value = 0.5,
@@ -94,7 +95,8 @@ std::vector<Parameter> strength_parameters() {
                  "lambda above 0.5, may roughen",
          .minimum = 0.0,
          .maximum = 1.0,
-         .only_with = Condition{"filter", {"laplace-hc"}}},
+         .only_with = Condition{"filter", {"laplace-hc"}},
+         .use = Use::Rare},
         {.name = "curvature",
          .unit = "1/mm",
          .help = "anisotropic: edges of larger curvature are preserved; curvature-triggered: "
@@ -143,7 +145,8 @@ std::vector<Parameter> filter_parameter_table() {
          .default_value = std::int64_t{1},
          .help = "rings of neighbours to average; 2 is less sensitive to small features",
          .minimum = 1,
-         .maximum = 2});
+         .maximum = 2,
+         .use = Use::Rare});
     return table;
 }
 

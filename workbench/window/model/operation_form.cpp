@@ -12,9 +12,11 @@ namespace {
 /// Conditions of conditions; more than the table has, so that a circle ends.
 constexpr int kDeepestCondition = 4;
 
-/// The value that a field takes: its text, else its default; empty: decided by the operation.
+/// The value that a field takes: its text, else the operation's decision, else its default; empty:
+/// that is not known.
 std::string effective_text(const FormField& field) {
     if (!field.text.empty()) return field.text;
+    if (field.automatic) return to_text(*field.automatic);
     return field.parameter->default_value ? to_text(*field.parameter->default_value) : "";
 }
 
@@ -81,11 +83,26 @@ void OperationForm::reset() {
     check();
 }
 
-bool OperationForm::holds(const Condition& condition) const {
+bool OperationForm::set_automatic(const Arguments& decided) {
+    if (decided == automatic_) return false;
+    automatic_ = decided;
+    const bool was_valid = valid();
+    const Arguments before = was_valid ? arguments() : Arguments();
+    for (FormField& field : fields_) {
+        const auto value = decided.values().find(field.parameter->name);
+        field.automatic.reset();
+        if (value != decided.values().end()) field.automatic = value->second;
+    }
+    check();
+    if (was_valid != valid() || (was_valid && before != arguments())) ++changes_;
+    return true;
+}
+
+bool OperationForm::is_met(const Condition& condition) const {
     const Condition* next = &condition;
     for (int depth = 0; next != nullptr && depth < kDeepestCondition; ++depth) {
         const FormField& cause = field(next->parameter);
-        if (std::ranges::count(next->values, effective_text(cause)) == 0) return false;
+        if (!holds(*next, *cause.parameter, effective_text(cause))) return false;
         next = cause.parameter->only_with ? &*cause.parameter->only_with : nullptr;
     }
     return true;
@@ -94,7 +111,7 @@ bool OperationForm::holds(const Condition& condition) const {
 void OperationForm::check() {
     error_.clear();
     for (FormField& field : fields_) {
-        field.active = !field.parameter->only_with || holds(*field.parameter->only_with);
+        field.active = !field.parameter->only_with || is_met(*field.parameter->only_with);
         field.error = field.active ? error_in(field) : "";
         if (error_.empty()) error_ = field.error;
     }

@@ -12,9 +12,10 @@ namespace vesselbench {
 /// One parameter of a form, as a text to be edited.
 struct FormField {
     const Parameter* parameter = nullptr;
-    std::string text;    ///< empty: not given
-    bool active = true;  ///< false: without effect, because of another field's value
-    std::string error;   ///< the checker's text; empty: the text may be used
+    std::string text;                ///< empty: not given
+    std::optional<Value> automatic;  ///< what the operation decides while `text` is empty, if known
+    bool active = true;              ///< false: without effect, because of another field's value
+    std::string error;               ///< the checker's text; empty: the text may be used
 };
 
 /// The parameters of an operation as editable texts: what a panel shows, without any drawing. A
@@ -44,6 +45,10 @@ public:
     /// Fills every field with what it held at first.
     void reset();
 
+    /// What the operation would decide for parameters that are not given: of those that are known.
+    /// \return true if that has changed
+    bool set_automatic(const Arguments& decided);
+
     /// True if apply would accept the arguments.
     [[nodiscard]] bool valid() const { return error_.empty(); }
 
@@ -67,12 +72,13 @@ private:
     void fill();
     void check();
     [[nodiscard]] FormField& find(const std::string& name);
-    [[nodiscard]] bool holds(const Condition& condition) const;
+    [[nodiscard]] bool is_met(const Condition& condition) const;
 
     const Operation* operation_;
     std::optional<EditId> edit_;
     Arguments given_;  ///< at first
     std::vector<FormField> fields_;
+    Arguments automatic_;
     std::string error_;
     int changes_ = 0;
 };

@@ -36,7 +36,8 @@ Workplace::Workplace(DocumentOptions options, Settings remembered, const LiveDev
       quality_(options.wake),
       gallery_(options.wake),
       extraction_(options.wake),
-      openings_(std::move(options.wake)) {}
+      openings_(options.wake),
+      automatic_(std::move(options.wake)) {}
 
 bool Workplace::update() {
     const bool changed = document.poll();
@@ -67,7 +68,10 @@ bool Workplace::update() {
     const bool openings = update_openings();
     const bool new_slices = update_slices();
     const bool measured = update_measures();
-    return openings || live || view_data || places || new_slices || compared || measured || changed;
+    // What is dragged is followed by the model: a search would take its time.
+    const bool automatic = !before_drag_ && automatic_.update(document, form_ ? &*form_ : nullptr);
+    return automatic || openings || live || view_data || places || new_slices || compared ||
+           measured || changed;
 }
 
 bool Workplace::update_live() {

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "workbench/window/model/automatic_values.h"
 #include "workbench/window/model/brush_form.h"
 #include "workbench/window/model/comparison.h"
 #include "workbench/window/model/document.h"
@@ -123,6 +124,9 @@ public:
 
     /// Counts calls of look_at().
     [[nodiscard]] int looks() const { return looks_; }
+
+    /// True while what the form's operation decides for empty fields is not known.
+    [[nodiscard]] bool finds_automatic() const { return automatic_.pending(); }
 
     void set_field(const std::string& parameter, const std::string& text);
     void reset_form();
@@ -399,6 +403,7 @@ private:
     SuggestionGallery gallery_;
     LiveExtraction extraction_;
     OpeningsModel openings_;
+    AutomaticValues automatic_;
     bool sliding_ = false;                           ///< the drag slides the iso-value
     bool driving_ = false;                           ///< the drag drives fields by the mouse
     std::shared_ptr<const LiveModel> applied_live_;  ///< what was shown when apply() was called

@@ -1,10 +1,12 @@
 #include "workbench/window/panels/form_fields.h"
 
 #include <algorithm>
+#include <functional>
 
 #include <imgui.h>
 
-#include "workbench/case/parameter_texts.h"
+#include "geometry/kernel/wording.h"
+#include "workbench/window/model/automatic_values.h"
 #include "workbench/window/model/readable.h"
 #include "workbench/window/style/icons.h"
 #include "workbench/window/widgets/controls.h"
@@ -18,16 +20,16 @@ std::string item_name(const Parameter& parameter) {
 }
 
 /// What an empty field says: nothing takes the place of a file that was not given.
-std::string hint_of(const Parameter& parameter) {
+std::string hint_of(const FormField& field) {
+    const Parameter& parameter = *field.parameter;
     const bool file = parameter.type == ParameterType::File && !parameter.required;
-    return file ? "none" : default_text(parameter);
+    return file ? "none" : unset_text(field);
 }
 
 void edit_text(PanelContext& c, const FormField& field, float width) {
     std::string text = field.text;
-    if (text_field(
-            c.ui, item_name(*field.parameter), text,
-            {.hint = hint_of(*field.parameter), .wrong = !field.error.empty(), .width = width}))
+    if (text_field(c.ui, item_name(*field.parameter), text,
+                   {.hint = hint_of(field), .wrong = !field.error.empty(), .width = width}))
         c.place.set_field(field.parameter->name, text);
 }
 
@@ -51,13 +53,14 @@ void edit_place(PanelContext& c, const FormField& field) {
         c.place.arm(name);
 }
 
-/// What a choice shows while nothing is given.
-std::string unset_text(const Parameter& parameter) {
-    return parameter.default_value ? to_text(*parameter.default_value) : default_text(parameter);
+/// What a choice shows while nothing is given: one of its texts, or that it is automatic.
+std::string unset_choice(const FormField& field) {
+    const auto& value = field.parameter->default_value;
+    return value ? to_text(*value) : unset_text(field);
 }
 
 void edit_choice(PanelContext& c, const FormField& field) {
-    const std::string unset = unset_text(*field.parameter);
+    const std::string unset = unset_choice(field);
     std::vector<std::string> options = field.parameter->choices;
     if (std::ranges::count(options, unset) == 0) options.insert(options.begin(), unset);
     std::string chosen = field.text.empty() ? unset : field.text;
@@ -66,7 +69,7 @@ void edit_choice(PanelContext& c, const FormField& field) {
 }
 
 void edit_flag(PanelContext& c, const FormField& field) {
-    const std::string unset = unset_text(*field.parameter);
+    const std::string unset = unset_choice(field);
     bool on = (field.text.empty() ? unset : field.text) == "true";
     if (!checkbox(c.ui, item_name(*field.parameter), "", on)) return;
     const std::string text = on ? "true" : "false";
@@ -111,14 +114,6 @@ void draw_label(const PanelContext& c, const FormField& field, float width) {
 }
 
 /// \return true if the mouse or the keyboard is in the field's line
-/// What an earlier run or a stroke has to fill in: no user types it.
-bool is_recorded(const FormField& field) {
-    const Meaning meaning = field.parameter->meaning;
-    const bool resolved =
-        meaning == Meaning::Planes || meaning == Meaning::Patches || meaning == Meaning::Dabs;
-    return resolved && field.text.empty();
-}
-
 bool draw_field(PanelContext& c, const FormField& field) {
     const float whole = ImGui::GetContentRegionAvail().x, label = whole * 0.4F;
     const float left = ImGui::GetCursorPosX();
@@ -137,16 +132,56 @@ bool draw_field(PanelContext& c, const FormField& field) {
            (over && ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem));
 }
 
+bool is_given(const FormField& field) {
+    return !field.text.empty();
+}
+
+/// What an earlier run or a stroke fills in is no field until it has.
+bool is_shown(const FormField& field) {
+    return field.active && (field.parameter->use != Use::Recorded || is_given(field));
+}
+
+bool is_rare(const FormField& field) {
+    return field.parameter->use == Use::Rare;
+}
+
+/// Editing a field changes the form: its fields are read one by one.
+/// \return the parameter under the mouse or with the keyboard; null: none
+template <class Wanted>
+const Parameter* draw_fields(PanelContext& c, const OperationForm& form, const Wanted& wanted) {
+    const Parameter* shown = nullptr;
+    for (std::size_t i = 0; i < form.fields().size(); ++i) {
+        const FormField field = form.fields()[i];
+        if (is_shown(field) && wanted(field) && draw_field(c, field)) shown = field.parameter;
+    }
+    return shown;
+}
+
+/// Unfolds or folds the fields that are seldom needed; those that are given stay. \return true if
+/// all are seen
+bool draw_more(PanelContext& c, const OperationForm& form) {
+    const auto folds = [](const FormField& field) { return is_shown(field) && is_rare(field); };
+    const auto count = std::ranges::count_if(form.fields(), folds);
+    if (count == 0) return false;
+    const std::string& name = form.operation().name;
+    const bool open = c.shown.unfolded_form == name;
+    space(c.ui, 0.5F);
+    if (button(c.ui, "field.more",
+               open ? "Less" : "More: " + counted(static_cast<std::size_t>(count), "field"),
+               {.icon = open ? icons::kDown : icons::kRight, .quiet = true}))
+        c.shown.unfolded_form = open ? "" : name;
+    return open;
+}
+
 }  // namespace
 
 const Parameter* draw_form_fields(PanelContext& c, OperationForm& form) {
-    const Parameter* shown = nullptr;
-    // Editing a field changes the form: its fields are read one by one.
-    for (std::size_t i = 0; i < form.fields().size(); ++i) {
-        const FormField field = form.fields()[i];
-        if (field.active && !is_recorded(field) && draw_field(c, field)) shown = field.parameter;
-    }
-    return shown;
+    const Parameter* usual = draw_fields(c, form, std::not_fn(is_rare));
+    const bool all = draw_more(c, form);
+    const Parameter* rare = draw_fields(c, form, [all](const FormField& field) {
+        return is_rare(field) && (all || is_given(field));
+    });
+    return rare != nullptr ? rare : usual;
 }
 
 }  // namespace vesselbench

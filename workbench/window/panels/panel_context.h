@@ -33,6 +33,7 @@ struct Shown {
     BottomTab bottom = BottomTab::History;
     FormTab form = FormTab::Fields;  ///< of forms that can be followed live
     QualityView quality = QualityView::Graphs;
+    std::string unfolded_form;  ///< operation whose seldom needed fields are seen; empty: none
     bool help = false;
     bool prepare = false;                   ///< the question for what to prepare
     std::string purpose = kDefaultVariant;  ///< answer so far
