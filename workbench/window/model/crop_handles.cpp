@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
+#include <utility>
 
 #include "geometry/kernel/wording.h"
 #include "workbench/case/argument_texts.h"
@@ -11,7 +13,7 @@ namespace vesselbench {
 
 namespace {
 
-constexpr double kMargin = 0.02;       ///< of an offered box around the model, of its diagonal [-]
+constexpr double kMargin = 0.02;       ///< of an offered box around a surface, of its diagonal [-]
 constexpr double kOfferedBall = 0.25;  ///< radius of an offered ball, of the diagonal [-]
 constexpr double kLeastSize = 0.1;     ///< of a region that is dragged [mm]
 constexpr std::size_t kFaces = 6;
@@ -26,13 +28,24 @@ struct Ball {
     double radius;
 };
 
+/// Outer edges of its voxels.
+Bounds image_box(const Image& image) {
+    const SliceGrid grid = slice_grid(image);
+    return {grid.low, grid.high()};
+}
+
+Bounds with_margin(const Bounds& model) {
+    const Vec3 margin = Vec3::Constant(kMargin * model.diagonal());
+    return {model.min - margin, model.max + margin};
+}
+
 struct Region {
     std::optional<Box> box;
     std::optional<Ball> ball;
     bool offered = false;  ///< something of it is not given
 };
 
-Region region_of(const OperationForm& form, const Bounds& model) {
+Region region_of(const OperationForm& form, const Bounds& offered) {
     const std::vector<double> box = list_of(form, "box");
     if (box.size() == 6)
         return {.box = Box{{box[0], box[1], box[2]}, {box[3], box[4], box[5]}}, .ball = {}};
@@ -41,11 +54,10 @@ Region region_of(const OperationForm& form, const Bounds& model) {
     const auto radius = number_of(form, "radius");
     if (centre || radius)
         return {.box = {},
-                .ball = Ball{centre.value_or(model.centre()),
-                             radius.value_or(kOfferedBall * model.diagonal())},
+                .ball = Ball{centre.value_or(offered.centre()),
+                             radius.value_or(kOfferedBall * offered.diagonal())},
                 .offered = !centre || !radius};
-    const Vec3 margin = Vec3::Constant(kMargin * model.diagonal());
-    return {.box = Box{model.min - margin, model.max + margin}, .ball = {}, .offered = true};
+    return {.box = Box{offered.min, offered.max}, .ball = {}, .offered = true};
 }
 
 Vec3 corner_of(const Box& box, std::size_t corner) {
@@ -56,9 +68,13 @@ Vec3 corner_of(const Box& box, std::size_t corner) {
 }
 
 /// "x0" for the low side of the first axis, "z1" for the high side of the last one.
-std::string side_name(std::size_t side) {
+std::string side_name(std::size_t axis, bool high) {
     constexpr std::array<char, 3> kAxes = {'x', 'y', 'z'};
-    return {kAxes[side % 3], side < 3 ? '0' : '1'};
+    return {kAxes[axis], high ? '1' : '0'};
+}
+
+std::string side_name(std::size_t side) {
+    return side_name(side % 3, side >= 3);
 }
 
 Handle face_handle(const Box& box, std::size_t face) {
@@ -134,6 +150,58 @@ Box dragged(Box box, std::size_t handle, const Vec3& to) {
     return box;
 }
 
+// --- in slices
+
+/// Which sides of the box a handle in a slice moves: -1 the low one, 1 the high one, 0 none.
+struct SliceHandle {
+    int across, along;
+};
+
+constexpr std::array<SliceHandle, 8> kSliceHandles = {
+    {{-1, 0}, {1, 0}, {0, -1}, {0, 1}, {-1, -1}, {1, -1}, {-1, 1}, {1, 1}}};
+
+double place_between(double low, double high, int side) {
+    return side < 0 ? low : side > 0 ? high : 0.5 * (low + high);
+}
+
+Handle slice_handle(const Box& box, const SliceHandle& at, const SliceAxes& axes, double position) {
+    Handle handle{.name = std::string("crop.") + axes.key + "."};
+    handle.point[axes.normal] = position;
+    for (const auto& [axis, side] : {std::pair(axes.across, at.across), {axes.along, at.along}}) {
+        handle.point[axis] = place_between(box.low[axis], box.high[axis], side);
+        if (side == 0) continue;
+        handle.name += side_name(static_cast<std::size_t>(axis), side > 0);
+        handle.direction = Vec3::Unit(axis);
+    }
+    const bool corner = at.across != 0 && at.along != 0;
+    handle.path = corner ? HandlePath::Free : HandlePath::Line;
+    handle.look = corner ? HandleLook::Square : HandleLook::Dot;
+    handle.help = corner ? "Move this corner of the box" : "Move this side of the box";
+    return handle;
+}
+
+FormShape rectangle_in_slice(const Box& box, const SliceAxes& axes, double position) {
+    FormShape shape;
+    for (const SliceHandle& at : kSliceHandles)
+        shape.handles.push_back(slice_handle(box, at, axes, position));
+    RegionLine line{.closed = true};
+    for (const std::size_t corner : {4, 5, 7, 6})
+        line.points.push_back(shape.handles[corner].point);
+    line.faint = position < box.low[axes.normal] || position > box.high[axes.normal];
+    shape.lines.push_back(std::move(line));
+    return shape;
+}
+
+/// Empty beside the ball.
+FormShape circle_in_slice(const Ball& ball, const SliceAxes& axes, double position) {
+    const double away = position - ball.centre[axes.normal];
+    if (std::abs(away) >= ball.radius) return {};
+    Vec3 centre = ball.centre;
+    centre[axes.normal] = position;
+    const double radius = std::sqrt(ball.radius * ball.radius - away * away);
+    return {.lines = {circle_line(centre, Vec3::Unit(axes.normal), radius)}};
+}
+
 Ball dragged(Ball ball, std::size_t handle, const Vec3& to) {
     if (handle == 0) {
         ball.centre = to;
@@ -147,9 +215,23 @@ Ball dragged(Ball ball, std::size_t handle, const Vec3& to) {
 
 }  // namespace
 
-FormShape crop_shape(const OperationForm& form, const Bounds& model) {
+void OfferedBox::update(const Scene* scene, const OperationForm* form) {
+    const bool crops = form != nullptr && scene != nullptr && has_field(*form, Meaning::Box);
+    const bool imaged = crops && scene->image && !scene->image->empty();
+    const bool surfaced = crops && !imaged && scene->surface && !scene->surface->empty();
+    const auto voxels = imaged ? scene->image->voxels : nullptr;
+    const auto positions = surfaced ? scene->surface->positions : nullptr;
+    if (voxels == voxels_ && positions == positions_) return;
+    voxels_ = voxels;
+    positions_ = positions;
+    bounds_.reset();
+    if (imaged) bounds_ = image_box(*scene->image);
+    if (surfaced) bounds_ = with_margin(vesselbench::bounds(*scene->surface));
+}
+
+FormShape crop_shape(const OperationForm& form, const Bounds& offered) {
     FormShape shape;
-    const Region region = region_of(form, model);
+    const Region region = region_of(form, offered);
     if (region.box) {
         shape.lines = box_lines(region.box->low, region.box->high);
         shape.handles = box_handles(*region.box);
@@ -165,13 +247,51 @@ FormShape crop_shape(const OperationForm& form, const Bounds& model) {
     return shape;
 }
 
-std::vector<FieldText> crop_texts(const OperationForm& form, const Bounds& model,
+std::vector<FieldText> crop_texts(const OperationForm& form, const Bounds& offered,
                                   std::size_t handle, const Vec3& to) {
-    const Region region = region_of(form, model);
+    const Region region = region_of(form, offered);
     if (region.box) return box_texts(dragged(*region.box, handle, to));
     if (!region.ball) return {};
     const Ball ball = dragged(*region.ball, handle, to);
     return {{"centre", to_text(Value(ball.centre))}, {"radius", to_text(Value(ball.radius))}};
+}
+
+FormShape crop_slice_shape(const OperationForm& form, const Bounds& offered, SlicePlane plane,
+                           double position) {
+    const Region region = region_of(form, offered);
+    const SliceAxes& axes = axes_of(plane);
+    FormShape shape;
+    if (region.box) shape = rectangle_in_slice(*region.box, axes, position);
+    if (region.ball) shape = circle_in_slice(*region.ball, axes, position);
+    for (RegionLine& line : shape.lines) line.faint = line.faint || region.offered;
+    return shape;
+}
+
+std::vector<FieldText> crop_slice_texts(const OperationForm& form, const Bounds& offered,
+                                        SlicePlane plane, std::size_t handle, const Vec3& to) {
+    const Region region = region_of(form, offered);
+    if (!region.box) return {};
+    const SliceAxes& axes = axes_of(plane);
+    const auto [across, along] = kSliceHandles.at(handle);
+    Box box{rounded_place(region.box->low), rounded_place(region.box->high)};
+    if (across != 0) move_side(box, axes.across, across > 0, to[axes.across]);
+    if (along != 0) move_side(box, axes.along, along > 0, to[axes.along]);
+    return box_texts(box);
+}
+
+std::vector<FieldText> crop_rectangle_texts(const OperationForm& form, const Bounds& offered,
+                                            SlicePlane plane, const Vec3& from, const Vec3& to) {
+    const Region region = region_of(form, offered);
+    Box box = region.box.value_or(Box{offered.min, offered.max});
+    const SliceAxes& axes = axes_of(plane);
+    for (const int axis : {axes.across, axes.along}) {
+        box.low[axis] = std::min(from[axis], to[axis]);
+        box.high[axis] = std::max({from[axis], to[axis], box.low[axis] + kLeastSize});
+    }
+    std::vector<FieldText> texts = box_texts({rounded_place(box.low), rounded_place(box.high)});
+    // A box and a ball exclude each other.
+    for (const char* part : {"centre", "radius"}) texts.push_back({part, ""});
+    return texts;
 }
 
 }  // namespace vesselbench

@@ -68,6 +68,7 @@ bool Workplace::update() {
     const bool openings = update_openings();
     const bool new_slices = update_slices();
     const bool measured = update_measures();
+    offered_.update(document.current(), form_ ? &*form_ : nullptr);
     // What is dragged is followed by the model: a search would take its time.
     const bool automatic = !before_drag_ && automatic_.update(document, form_ ? &*form_ : nullptr);
     return automatic || openings || live || view_data || places || new_slices || compared ||
@@ -259,12 +260,18 @@ void Workplace::choose(const std::string& operation, std::optional<Step> step) {
     step_ = fits ? *step : chosen.usual_step;
     document.stand_before(EditSite{.edit = {}, .step = step_});
     form_.emplace(chosen, suggested_arguments(chosen));
-    ++form_number_;
+    show_form();
     if (is_brush(form_->operation())) {
         if (tip_.radius > 0.0) vesselbench::set_tip(*form_, tip_);
         return;
     }
     arm_required();
+}
+
+/// A region of the image is seen in its slices.
+void Workplace::show_form() {
+    ++form_number_;
+    if (has_field(*form_, Meaning::Box)) slices_.lend_row(true);
 }
 
 /// What the form of a new edit starts with.
@@ -327,7 +334,7 @@ void Workplace::choose_edit(EditId edit) {
         entry == nullptr ? nullptr : known_operation(entry->edit.operation);
     if (operation == nullptr) return document.stand_before({});
     form_.emplace(*operation, entry->edit);
-    ++form_number_;
+    show_form();
     step_ = entry->edit.place.step;
     document.stand_before(EditSite{.edit = edit, .step = step_});
 }

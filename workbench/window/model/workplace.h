@@ -10,6 +10,7 @@
 #include "workbench/window/model/automatic_values.h"
 #include "workbench/window/model/brush_form.h"
 #include "workbench/window/model/comparison.h"
+#include "workbench/window/model/crop_handles.h"
 #include "workbench/window/model/document.h"
 #include "workbench/window/model/field_text.h"
 #include "workbench/window/model/history_tree.h"
@@ -218,6 +219,9 @@ public:
 
     // --- handles in the view
 
+    /// The box that a form which crops offers; none: it offers none [mm].
+    [[nodiscard]] const std::optional<Bounds>& offered_box() const { return offered_.bounds(); }
+
     /// Begins to drag a handle of the form's.
     void begin_drag();
 
@@ -360,6 +364,7 @@ private:
     void search_places(const Scene* scene, bool tips);
     [[nodiscard]] Arguments suggested_arguments(const Operation& operation) const;
     void arm_required();
+    void show_form();
     [[nodiscard]] bool preview_is_current() const;
     [[nodiscard]] std::string why_no_worst() const;
     [[nodiscard]] bool can_change() const;
@@ -404,6 +409,7 @@ private:
     LiveExtraction extraction_;
     OpeningsModel openings_;
     AutomaticValues automatic_;
+    OfferedBox offered_;
     bool sliding_ = false;                           ///< the drag slides the iso-value
     bool driving_ = false;                           ///< the drag drives fields by the mouse
     std::shared_ptr<const LiveModel> applied_live_;  ///< what was shown when apply() was called

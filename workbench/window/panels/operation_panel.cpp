@@ -160,6 +160,9 @@ void draw_advice(PanelContext& c, const OperationForm& form, const Parameter* pa
     const std::string waiting = c.place.document.why_not_input();
     if (is_brush(form.operation()) && !waiting.empty())
         return wrapped(c.ui, "Nothing can be painted: " + waiting, c.ui.theme.warning);
+    if (c.place.offered_box())
+        return wrapped(c.ui, "Drag the handles of the box, or a rectangle in a slice.",
+                       c.ui.theme.muted);
     wrapped(c.ui,
             c.place.can_paint()
                 ? "Drag on the surface to brush: each drag is an edit. [ and ] change the radius, "

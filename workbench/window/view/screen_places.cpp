@@ -24,6 +24,15 @@ ImVec2 corner_of(const ViewPixel& at) {
     return {static_cast<float>(at.x()), static_cast<float>(at.y())};
 }
 
+void fill(HandleLook look, ImVec2 at, float radius, Paint colour) {
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    if (look == HandleLook::Square)
+        draw.AddRectFilled({at.x - radius, at.y - radius}, {at.x + radius, at.y + radius}, colour,
+                           radius / 4);
+    else
+        draw.AddCircleFilled(at, radius, colour);
+}
+
 }  // namespace
 
 PixelView on_screen(const ViewCamera& camera, const ScreenRect& rect) {
@@ -87,6 +96,16 @@ void draw_mark(const Ui& ui, const ViewPixel& at, MarkLook look, const std::stri
     const float wide = plate_size(ui, label).x;
     const bool fits = middle.x + gap + wide <= right;
     draw_plate(ui, {fits ? middle.x + gap : middle.x - gap - wide, middle.y}, label);
+}
+
+void draw_handle_mark(Ui& ui, const Handle& handle, const ViewPixel& at, bool lit) {
+    const float radius = ui.em * (lit ? 0.48F : 0.38F);
+    const ImVec2 middle = corner_of(at);
+    fill(handle.look, middle, radius + ui.em * 0.1F, paint(0x101418, 200));
+    fill(handle.look, middle, radius, paint(0xFFFFFF));
+    fill(handle.look, middle, radius - ui.em * 0.1F, lit ? ui.theme.accent : kRegionPaint);
+    if (handle.look == HandleLook::Ring) fill(handle.look, middle, radius * 0.4F, paint(0xFFFFFF));
+    ui.item(handle.name, ScreenRect{middle.x - radius, middle.y - radius, 2 * radius, 2 * radius});
 }
 
 void draw_plate(const Ui& ui, const ViewPixel& at, const std::string& words) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "workbench/window/model/handle.h"
 #include "workbench/window/model/pixel_view.h"
 #include "workbench/window/model/surface_places.h"
 #include "workbench/window/widgets/ui.h"
@@ -42,6 +43,12 @@ enum class MarkLook {
 
 /// A disc, with a label beside it unless that is empty, drawn into ImGui's current window.
 void draw_mark(const Ui& ui, const ViewPixel& at, MarkLook look, const std::string& label);
+
+inline constexpr double kHandleReach = 0.85;  ///< a cursor so near to a handle is over it [em]
+inline constexpr Paint kRegionPaint = paint(0xE07A10);  ///< of handles, and of regions in slices
+
+/// A handle, drawn into ImGui's current window and registered by its name.
+void draw_handle_mark(Ui& ui, const Handle& handle, const ViewPixel& at, bool lit);
 
 /// Text on a plate, from the middle of its left side; moved so that it is inside the window.
 void draw_plate(const Ui& ui, const ViewPixel& at, const std::string& words);

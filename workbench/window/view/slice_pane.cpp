@@ -142,7 +142,8 @@ void SlicePane::handle_drag(PanelContext& c) {
         camera_ = panned(camera_, screen().aspect(), Eigen::Vector2d::Zero(),
                          screen().ndc_move({io.MouseDelta.x, io.MouseDelta.y}));
         fits_ = false;
-    } else if (ImGui::IsMouseDown(ImGuiMouseButton_Left) && !takes_clicks(c.place) && pointed_) {
+    } else if (ImGui::IsMouseDown(ImGuiMouseButton_Left) && !takes_clicks(c.place) && pointed_ &&
+               !crop_.holds_left()) {
         slices.set_cross(*pointed_);
     }
 }
@@ -287,6 +288,7 @@ void SlicePane::draw(PanelContext& c, const PaneSource& source, const ScreenRect
                                ImGuiButtonFlags_MouseButtonRight);
     ImGui::SetItemAllowOverlap();
     c.ui.item(key + ".area");
+    crop_.update(c, screen());
     handle_mouse(c);
     place_camera(c.place.slices());
     if (!source.guard.run([&] { draw_picture(c.ui, source); })) texture_ = 0;
@@ -298,6 +300,7 @@ void SlicePane::draw(PanelContext& c, const PaneSource& source, const ScreenRect
     const int normal = axes_of(plane_).normal;
     draw_measures_in_slice(c, screen(), normal, c.place.slices().position(plane_),
                            kNearSlice * grid_.step[normal]);
+    crop_.draw(c, screen());
     draw_switch(c);
     draw_slider(c, {rect.x, rect.y + rect_.height, rect.width, slider});
     end_frame();

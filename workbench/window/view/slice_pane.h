@@ -7,6 +7,7 @@
 #include "workbench/window/model/pixel_view.h"
 #include "workbench/window/panels/panel_context.h"
 #include "workbench/window/view/drawing_guard.h"
+#include "workbench/window/view/slice_crop.h"
 #include "workbench/window/view/slice_planes.h"
 
 namespace vesselbench {
@@ -24,10 +25,11 @@ struct PaneSource {
 
 /// A slice as a 2D view: letters of the sides, position, scale, and the lines of the other planes.
 /// Click or drag moves the cross there; a click gives its place to the armed parameter, or measures
-/// a distance while that tool is on; right drag changes window and level; the wheel goes through the slices, with Ctrl it zooms.
+/// a distance while that tool is on; where a form crops, a drag draws the box; right drag changes
+/// window and level; the wheel goes through the slices, with Ctrl it zooms.
 class SlicePane {
 public:
-    explicit SlicePane(SlicePlane plane) : plane_(plane) {}
+    explicit SlicePane(SlicePlane plane) : plane_(plane), crop_(plane) {}
 
     /// Needs the window's OpenGL context, as the destructor does.
     void draw(PanelContext& context, const PaneSource& source, const ScreenRect& rect);
@@ -59,6 +61,7 @@ private:
     [[nodiscard]] Vec3 place_of(const ViewPixel& pixel) const;
 
     SlicePlane plane_;
+    SliceCrop crop_;
     std::optional<RenderTarget> target_;
     unsigned texture_ = 0;
     std::optional<Drawn> drawn_;

@@ -11,8 +11,7 @@ namespace vesselbench {
 
 namespace {
 
-constexpr double kReach = 0.85;  ///< a cursor so near to a handle is over it [em]
-constexpr double kSnap = 0.4;    ///< a dragged length so near to a detent goes there [em]
+constexpr double kSnap = 0.4;  ///< a dragged length so near to a detent goes there [em]
 
 const Surface* model_of(const PanelContext& c) {
     if (const Surface* before = c.place.openings().surface()) return before;
@@ -21,21 +20,12 @@ const Surface* model_of(const PanelContext& c) {
                                                                           : nullptr;
 }
 
-void fill(ImDrawList& draw, HandleLook look, ImVec2 at, float radius, Paint colour) {
-    if (look == HandleLook::Square)
-        draw.AddRectFilled({at.x - radius, at.y - radius}, {at.x + radius, at.y + radius}, colour,
-                           radius / 4);
-    else
-        draw.AddCircleFilled(at, radius, colour);
-}
-
 }  // namespace
 
 void ViewHandles::forget() {
     take_cut(nullptr, std::nullopt);
     cut_form_.reset();
     shape_ = {};
-    positions_.reset();
     openings_.clear();
     state_ = State::Idle;
     hot_.reset();
@@ -44,18 +34,9 @@ void ViewHandles::forget() {
 // --- what is shown
 
 void ViewHandles::take_model(const PanelContext& c) {
-    const Surface* model = model_of(c);
-    if (model == nullptr) {
-        positions_.reset();
+    if (model_of(c) == nullptr)
         openings_.clear();
-        return;
-    }
-    const auto& form = c.place.form();
-    if (form && has_field(*form, Meaning::Box) && positions_ != model->positions) {
-        positions_ = model->positions;
-        bounds_ = bounds(*model);
-    }
-    if (!c.place.document.previewed() && !c.place.searches_places())
+    else if (!c.place.document.previewed() && !c.place.searches_places())
         openings_ = c.place.surface_places().openings;
 }
 
@@ -67,9 +48,11 @@ void ViewHandles::take_shape(const PanelContext& c) {
     if (cuts) cut_form_ = c.place.openings().lists_ends() ? c.place.openings().cut_form() : form;
     take_cut(model, cut_form_ ? cut_question(*cut_form_) : std::nullopt);
     shape_ = {};
-    if (!form || model == nullptr) return;
-    if (has_field(*form, Meaning::Box))
-        shape_ = crop_shape(*form, bounds_);
+    const auto& offered = c.place.offered_box();
+    if (form && offered)
+        shape_ = crop_shape(*form, *offered);
+    else if (!form || model == nullptr)
+        return;
     else if (has_field(*form, Meaning::Openings))
         shape_ = length_shape(*form, openings_);
     else if (cut_form_ && cut_)
@@ -111,7 +94,7 @@ void ViewHandles::find_hot(const PanelContext& c, const PixelView& view, const V
     hot_.reset();
     const bool pressed = ImGui::IsItemActive() && ImGui::IsMouseClicked(ImGuiMouseButton_Left);
     if (pressed || (ImGui::IsItemHovered() && !ImGui::IsAnyMouseDown()))
-        hot_ = nearest_handle(shape_.handles, view, cursor, kReach * c.ui.em);
+        hot_ = nearest_handle(shape_.handles, view, cursor, kHandleReach * c.ui.em);
 }
 
 void ViewHandles::begin(PanelContext& c, const PixelView& view, const ViewPixel& cursor) {
@@ -129,7 +112,8 @@ void ViewHandles::begin(PanelContext& c, const PixelView& view, const ViewPixel&
 std::vector<FieldText> ViewHandles::texts(const PanelContext& c, const Vec3& to,
                                           double snap) const {
     const OperationForm& before = *c.place.before_drag();
-    if (has_field(before, Meaning::Box)) return crop_texts(before, bounds_, start_.index, to);
+    if (const auto& offered = c.place.offered_box())
+        return crop_texts(before, *offered, start_.index, to);
     if (has_field(before, Meaning::Openings))
         return length_texts(before, start_.openings, start_.index, to, snap);
     if (!start_.cut || !start_.cut_form) return {};
@@ -184,15 +168,7 @@ void ViewHandles::draw_handle(PanelContext& c, const PixelView& screen, std::siz
     const auto place = screen.place(handle.point);
     if (!place || !can_be_dragged(handle, screen)) return;
     const bool lit = state_ == State::Dragging ? start_.index == index : hot_ == index;
-    const float radius = c.ui.em * (lit ? 0.48F : 0.38F);
-    const ImVec2 at{static_cast<float>(place->x()), static_cast<float>(place->y())};
-    ImDrawList& draw = *ImGui::GetWindowDrawList();
-    fill(draw, handle.look, at, radius + c.ui.em * 0.1F, paint(0x101418, 200));
-    fill(draw, handle.look, at, radius, paint(0xFFFFFF));
-    fill(draw, handle.look, at, radius - c.ui.em * 0.1F, lit ? c.ui.theme.accent : paint(0xE07A10));
-    if (handle.look == HandleLook::Ring)
-        fill(draw, handle.look, at, radius * 0.4F, paint(0xFFFFFF));
-    c.ui.item(handle.name, ScreenRect{at.x - radius, at.y - radius, 2 * radius, 2 * radius});
+    draw_handle_mark(c.ui, handle, *place, lit);
 }
 
 void ViewHandles::draw(PanelContext& c, const PixelView& screen) const {

@@ -78,9 +78,7 @@ private:
     std::optional<Cut> cut_;  ///< the last one of the question's branch; none: not known yet
     std::optional<OperationForm> cut_form_;  ///< of the one cut that has handles
     FormShape shape_;
-    std::shared_ptr<const Positions> positions_;  ///< whose bounds these are
-    Bounds bounds_;                               ///< of the model, for regions
-    std::vector<PatchMeasures> openings_;         ///< of the model, without a preview
+    std::vector<PatchMeasures> openings_;  ///< of the model, without a preview
     State state_ = State::Idle;
     std::optional<std::size_t> hot_;
     Start start_;
