@@ -98,14 +98,25 @@ ImageJudgement judge(const Image& image) {
 }
 
 std::vector<int> labels_of(const Image& image) {
-    std::set<int> labels;
+    std::vector<int> labels;
+    for (const auto& [label, volume] : label_volumes(image)) labels.push_back(label);
+    return labels;
+}
+
+std::map<int, double> label_volumes(const Image& image) {
+    const double voxel = std::abs(image.index_to_patient.topLeftCorner<3, 3>().determinant());
+    std::map<int, std::size_t> counts;
     float last = 0.0f;
+    std::size_t* count = nullptr;  // of the last value: neighbours are mostly equal
     for (const float v : *image.voxels) {
-        if (v == last) continue;
+        if (!(v > 0.0f)) continue;
+        if (v != last || count == nullptr) count = &counts[static_cast<int>(std::lround(v))];
         last = v;
-        if (v > 0.0f) labels.insert(static_cast<int>(std::lround(v)));
+        ++*count;
     }
-    return {labels.begin(), labels.end()};
+    std::map<int, double> volumes;
+    for (const auto& [label, voxels] : counts) volumes[label] = voxel * static_cast<double>(voxels);
+    return volumes;
 }
 
 Image mask_of_labels(const Image& image, const std::vector<int>& labels) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,9 @@ struct ImageJudgement {
 
 /// The labels (values above 0) of a label map, ascending.
 [[nodiscard]] std::vector<int> labels_of(const Image& image);
+
+/// What each label above 0 takes [mm^3].
+[[nodiscard]] std::map<int, double> label_volumes(const Image& image);
 
 /// A mask of 1 and 0: voxels whose rounded value is one of `labels`; no labels: any value above 0.
 [[nodiscard]] Image mask_of_labels(const Image& image, const std::vector<int>& labels);

@@ -416,3 +416,17 @@ SCENARIO("Real images give closed vessels of plausible size", "[images][extracti
         }
     }
 }
+
+SCENARIO("Labels have the volume of their voxels", "[images][extraction]") {
+    const Eigen::Matrix4d matrix = oblique_matrix({0.5, 1, 2}, {3, 4, 5});
+    Image labels = image_of({4, 3, 2}, matrix, [](const Vec3&) { return 0.0; });
+    auto voxels = *labels.voxels;
+    voxels[0] = voxels[5] = 7;
+    voxels[6] = voxels[7] = voxels[23] = 2;
+    labels.voxels = std::make_shared<const std::vector<float>>(std::move(voxels));
+    const std::map<int, double> volumes = label_volumes(labels);
+    REQUIRE(volumes.size() == 2);
+    CHECK(volumes.at(2) == Approx(3.0));
+    CHECK(volumes.at(7) == Approx(2.0));
+    CHECK(labels_of(labels) == std::vector<int>{2, 7});
+}

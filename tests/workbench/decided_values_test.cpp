@@ -88,5 +88,6 @@ SCENARIO("The method of an extraction is known before", "[workbench][forms]") {
     CHECK(decided("extract-surface", ball, {}).text("threshold") == "local");
     const Arguments labels = compared("extract-surface", image_scene(two_labels()), {});
     CHECK(labels.text("method") == "labels");
+    CHECK(labels.list("labels") == std::vector<double>{2, 5});
     CHECK_FALSE(labels.has("threshold"));
 }

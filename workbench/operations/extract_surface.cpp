@@ -271,6 +271,10 @@ Arguments decided_arguments(const Scene& scene, const CheckedArguments& argument
         SurfaceExtractor(image_of(scene), scene.mask)
             .decided(extraction_parameters(arguments, scene.mask.has_value()), progress);
     Arguments found{{"method", to_string(*decided.method)}};
+    if (decided.method != ExtractionMethod::Threshold && decided.labels.empty()) {
+        const std::vector<int> all = labels_of(scene.mask ? *scene.mask : *scene.image);
+        found.set("labels", std::vector<double>(all.begin(), all.end()));
+    }
     if (decided.method == ExtractionMethod::Labels) return found;
     found.set("threshold",
               decided.local_levels ? Value(std::string("local")) : Value(*decided.threshold));

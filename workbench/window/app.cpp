@@ -168,7 +168,7 @@ void App::recover(const std::string& error) {
 
 bool App::is_moving() const {
     return impl_->moved || impl_->place.document.busy() || impl_->place.searches_places() ||
-           impl_->place.finds_automatic() || impl_->place.slices().pending() ||
+           impl_->place.finds_field_values() || impl_->place.slices().pending() ||
            impl_->place.is_comparing() || impl_->place.view_data().pending() ||
            impl_->place.live().pending() || impl_->place.quality().pending() ||
            impl_->place.gallery().pending() || impl_->place.extraction().pending() ||

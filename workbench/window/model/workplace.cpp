@@ -37,7 +37,8 @@ Workplace::Workplace(DocumentOptions options, Settings remembered, const LiveDev
       gallery_(options.wake),
       extraction_(options.wake),
       openings_(options.wake),
-      automatic_(std::move(options.wake)) {}
+      automatic_(options.wake),
+      labels_(std::move(options.wake)) {}
 
 bool Workplace::update() {
     const bool changed = document.poll();
@@ -71,8 +72,9 @@ bool Workplace::update() {
     offered_.update(document.current(), form_ ? &*form_ : nullptr);
     // What is dragged is followed by the model: a search would take its time.
     const bool automatic = !before_drag_ && automatic_.update(document, form_ ? &*form_ : nullptr);
-    return automatic || openings || live || view_data || places || new_slices || compared ||
-           measured || changed;
+    const bool labels = labels_.update(document, form_ ? &*form_ : nullptr);
+    return labels || automatic || openings || live || view_data || places || new_slices ||
+           compared || measured || changed;
 }
 
 bool Workplace::update_live() {

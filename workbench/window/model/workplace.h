@@ -15,6 +15,7 @@
 #include "workbench/window/model/field_text.h"
 #include "workbench/window/model/history_tree.h"
 #include "workbench/window/model/image_slices.h"
+#include "workbench/window/model/label_list.h"
 #include "workbench/window/model/live_extraction.h"
 #include "workbench/window/model/live_smoothing.h"
 #include "workbench/window/model/measure_list.h"
@@ -126,8 +127,13 @@ public:
     /// Counts calls of look_at().
     [[nodiscard]] int looks() const { return looks_; }
 
-    /// True while what the form's operation decides for empty fields is not known.
-    [[nodiscard]] bool finds_automatic() const { return automatic_.pending(); }
+    /// True while what fields show is not known: automatic values, labels.
+    [[nodiscard]] bool finds_field_values() const {
+        return automatic_.pending() || labels_.pending();
+    }
+
+    /// The labels that the form may take.
+    [[nodiscard]] const LabelList& labels() const { return labels_; }
 
     void set_field(const std::string& parameter, const std::string& text);
     void reset_form();
@@ -410,6 +416,7 @@ private:
     OpeningsModel openings_;
     AutomaticValues automatic_;
     OfferedBox offered_;
+    LabelList labels_;
     bool sliding_ = false;                           ///< the drag slides the iso-value
     bool driving_ = false;                           ///< the drag drives fields by the mouse
     std::shared_ptr<const LiveModel> applied_live_;  ///< what was shown when apply() was called

@@ -8,6 +8,7 @@
 #include "geometry/kernel/wording.h"
 #include "workbench/window/model/automatic_values.h"
 #include "workbench/window/model/readable.h"
+#include "workbench/window/panels/label_rows.h"
 #include "workbench/window/style/icons.h"
 #include "workbench/window/widgets/controls.h"
 
@@ -42,12 +43,17 @@ void edit_file(PanelContext& c, const FormField& field) {
         c.place.ask(FileQuestion::Parameter, name);
 }
 
-/// A place, with a button that lets it be picked in the view.
+/// A place, with a button that lets it be picked in the view; listed labels need no text.
 void edit_place(PanelContext& c, const FormField& field) {
     const float side = ImGui::GetFrameHeight(), gap = c.ui.grid(0.5F);
     const std::string name = field.parameter->name;
-    edit_text(c, field, ImGui::GetContentRegionAvail().x - side - gap);
-    ImGui::SameLine(0, gap);
+    const float left = ImGui::GetCursorPosX(),
+                width = ImGui::GetContentRegionAvail().x - side - gap;
+    if (lists_labels(c, field))
+        draw_label_count(c, field);
+    else
+        edit_text(c, field, width);
+    ImGui::SameLine(left + width + gap);
     if (icon_button(c.ui, item_name(*field.parameter) + ".pick", icons::kTarget, "Pick in the view",
                     true, c.place.armed() == name))
         c.place.arm(name);
@@ -124,6 +130,7 @@ bool draw_field(PanelContext& c, const FormField& field) {
     const bool typing = ImGui::IsItemActive();
     const bool over = ImGui::IsMouseHoveringRect(
         from, {from.x + whole, from.y + ImGui::GetFrameHeight() + ImGui::GetStyle().ItemSpacing.y});
+    if (lists_labels(c, field)) draw_label_rows(c, field);
     if (!field.error.empty()) {
         wrapped(c.ui, field.error, c.ui.theme.danger);
         space(c.ui, 0.5F);
