@@ -7,10 +7,12 @@
 #include <vector>
 
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
 #include "tests/window/window_support.h"
+#include "workbench/case/json_text.h"
 #include "workbench/window/model/document.h"
 #include "workbench/window/model/rail.h"
 
@@ -71,6 +73,10 @@ std::vector<EditRef> edits_of(const Document& document, const std::string& varia
     for (const HistoryEntry& entry : document.snapshot()->history->line(variant))
         edits.push_back(entry.edit);
     return edits;
+}
+
+bool is_enabled(OffscreenShell& shell, const std::string& item) {
+    return shell.has(item) && shell.app().ui().items().at(item).enabled;
 }
 
 }  // namespace
@@ -148,4 +154,82 @@ SCENARIO("The dialog offers what is missing, or a step to start again from", "[w
     REQUIRE(shell->click_item("prepare.run"));
     REQUIRE(wait_until_idle(*shell));
     CHECK(document.snapshot()->history->current() == state);
+}
+
+SCENARIO("Values of a recipe are changed before it runs", "[window][prepare]") {
+    const auto shell = test_shell();
+    if (!shell) return;
+    open_and_wait(*shell, case_folder().string());
+    Workplace& place = shell->app().place();
+    REQUIRE(shell->click_item("tool.prepare"));
+    shell->frame();
+    CHECK_FALSE(is_enabled(*shell, "prepare.restore"));
+    REQUIRE(shell->click_item("prepare.entry.2"));
+    shell->frame();
+    REQUIRE(shell->fill_item("prepare.field.iterations", "7"));
+    WHEN("it is run") {
+        REQUIRE(shell->click_item("prepare.run"));
+        REQUIRE(wait_until_idle(*shell));
+        const auto& log = place.document.snapshot()->log;
+        const auto smooth = std::ranges::find(
+            log, "smooth", [](const LogEntry& entry) { return entry.edit.operation; });
+        REQUIRE(smooth != log.end());
+        CHECK(smooth->edit.given.integer("iterations") == 7);
+        CHECK(operations_of(place.document, "cfd") ==
+              Names{"load-surface", "repair", "smooth", "subdivide"});
+    }
+    WHEN("it is saved") {
+        REQUIRE(shell->click_item("prepare.save"));
+        CHECK(place.question() == FileQuestion::SaveRecipe);
+        const fs::path file = fs::path(temporary_folder()) / "own.json";
+        place.answer(file);
+        shell->frame();
+        THEN("the file is a recipe with the changed value") {
+            const Recipe recipe = recipe_from_json(json_from_file(file), {"surface", "rp"});
+            REQUIRE(recipe.size() == 3);
+            CHECK(recipe[1].given->integer("iterations") == 7);
+            CHECK(shell->has("prepare.run"));
+        }
+    }
+    WHEN("a value is wrong") {
+        REQUIRE(shell->fill_item("prepare.field.iterations", "-7"));
+        shell->frame();
+        CHECK_FALSE(is_enabled(*shell, "prepare.run"));
+        CHECK_FALSE(is_enabled(*shell, "prepare.save"));
+        REQUIRE(shell->click_item("prepare.restore"));
+        shell->frame();
+        CHECK(is_enabled(*shell, "prepare.run"));
+        CHECK(place.recipe.forms()[1].field("iterations").text == "3");
+    }
+}
+
+SCENARIO("A recipe's draft keeps its changes while the same edits are to be made",
+         "[window][prepare]") {
+    const Recipe recipe = default_recipe({"surface", "rp"});
+    const auto remesh = static_cast<std::size_t>(
+        std::ranges::find(recipe, "remesh",
+                          [](const RecipeEntry& entry) { return entry.given.operation().name; }) -
+        recipe.begin());
+    REQUIRE(remesh < recipe.size());
+    RecipeDraft draft;
+    draft.follow(recipe);
+    REQUIRE(draft.forms().size() == recipe.size());
+    CHECK_FALSE(draft.is_changed());
+    CHECK(recipe_to_json(draft.recipe()) == recipe_to_json(recipe));
+    draft.set(remesh, "gradation", "1.3");
+    draft.follow(recipe);
+    CHECK(draft.is_changed(remesh));
+    const Recipe changed = draft.recipe();
+    CHECK(changed[remesh].given->real("gradation") == 1.3);
+    CHECK(changed[remesh].given->real("print_resolution") == 0.1);
+    for (std::size_t i = 0; i < recipe.size(); ++i) {
+        const Arguments &before = recipe[i].given, &after = changed[i].given;
+        CHECK((before == after) == (i != remesh));
+        CHECK(step_of(changed[i]) == step_of(recipe[i]));
+    }
+    draft.set(remesh, "gradation", "9");
+    CHECK_FALSE(draft.error().empty());
+    draft.follow(default_recipe({"surface", "cfd"}));
+    CHECK_FALSE(draft.is_changed());
+    CHECK(draft.error().empty());
 }

@@ -230,6 +230,7 @@ SCENARIO("A seed is picked in a slice", "[window][slices][picking]") {
     REQUIRE(shell->click_item("rail.source"));
     REQUIRE(shell->click_item("choose.extract-surface"));
     place.slices().show_row(false);
+    REQUIRE(shell->settle(10s));  // what does not apply is hidden
     REQUIRE(shell->click_item("field.seed.pick"));
     CHECK(place.armed() == "seed");
     REQUIRE(shell->settle(10s));
@@ -267,6 +268,7 @@ SCENARIO("Labels are picked in slices", "[window][slices][picking]") {
     CHECK_FALSE(shell->has("slices.window"));
     REQUIRE(shell->click_item("rail.source"));
     REQUIRE(shell->click_item("choose.extract-surface"));
+    REQUIRE(shell->settle(10s));  // the labels are listed
     REQUIRE(shell->click_item("field.labels.pick"));
     const double z = place.slices().cross().z();
     const auto text = [&] { return place.form()->field("labels").text; };

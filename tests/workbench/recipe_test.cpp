@@ -153,3 +153,21 @@ SCENARIO("The built-in recipe fits every use", "[workbench][recipe]") {
                 CHECK(names.back() == (purpose == "cfd" ? "tetrahedralize" : "print-check"));
             }
 }
+
+SCENARIO("A recipe that is written is read again", "[workbench][recipe]") {
+    for (const Purpose& purpose : purposes())
+        for (const char* source : {"image", "surface"}) {
+            const Recipe recipe = default_recipe({source, purpose.name});
+            const Json written = recipe_to_json(recipe);
+            INFO(written.dump());
+            const Recipe again = recipe_from_json(written, {"surface"});
+            REQUIRE(again.size() == recipe.size());
+            CHECK(recipe_to_json(again) == written);
+            for (std::size_t i = 0; i < recipe.size(); ++i) {
+                const Arguments &before = recipe[i].given, &after = again[i].given;
+                CHECK(before == after);
+                CHECK(step_of(again[i]) == step_of(recipe[i]));
+                CHECK(again[i].otherwise.has_value() == recipe[i].otherwise.has_value());
+            }
+        }
+}

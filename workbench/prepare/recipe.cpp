@@ -81,6 +81,13 @@ GivenArguments given_in(JsonFields& fields) {
     return given ? arguments_from_json(operation, *given) : GivenArguments(operation);
 }
 
+/// As given_in() reads them.
+Json json_of(const GivenArguments& given) {
+    Json json = {{"operation", given.operation().name}};
+    if (!given->values().empty()) json["arguments"] = to_json(given);
+    return json;
+}
+
 RecipeEntry entry_from_json(const Json& json) {
     JsonFields fields(json, "the entry");
     RecipeEntry entry{.given = given_in(fields),
@@ -127,6 +134,20 @@ Recipe recipe_from_json(const Json& list, const RecipeUse& use) {
             throw UsageError("recipe, entry " + std::to_string(i + 1) + ": " + error.what());
         }
     return recipe;
+}
+
+Json recipe_to_json(const Recipe& recipe) {
+    Json list = Json::array();
+    for (const RecipeEntry& entry : recipe) {
+        Json json = json_of(entry.given);
+        if (entry.step) json["step"] = to_string(*entry.step);
+        if (entry.optional) json["optional"] = true;
+        if (entry.unless_closed) json["unless_closed"] = true;
+        if (entry.unless_made) json["unless_made"] = json_of(*entry.unless_made);
+        if (entry.otherwise) json["otherwise"] = to_json(*entry.otherwise);
+        list.push_back(std::move(json));
+    }
+    return list;
 }
 
 Recipe default_recipe(const RecipeUse& use) {

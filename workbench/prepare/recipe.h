@@ -43,6 +43,9 @@ using RecipeUse = std::vector<std::string>;  ///< of "surface" or "image", "mask
 /// \throw UsageError that names the entry and the mistake
 [[nodiscard]] Recipe recipe_from_json(const nlohmann::ordered_json& list, const RecipeUse& use);
 
+/// The JSON list from which recipe_from_json() reads the same entries, whatever their use.
+[[nodiscard]] nlohmann::ordered_json recipe_to_json(const Recipe& recipe);
+
 /// The built-in recipe that `prepare` uses by default (DESIGN 2).
 [[nodiscard]] Recipe default_recipe(const RecipeUse& use);
 

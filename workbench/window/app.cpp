@@ -150,7 +150,8 @@ void App::draw() {
     }
     draw_status_line(context, layout.status);
     app.files.draw(context, layout.window);
-    if (app.shown.prepare && app.place.document.is_open())
+    const bool asks = app.place.question() != FileQuestion::None;  // where to save the recipe
+    if (app.shown.prepare && app.place.document.is_open() && !asks)
         draw_prepare_dialog(context, layout.window);
     if (app.shown.note && app.place.document.is_open()) draw_note_dialog(context, layout.window);
     if (app.shown.help) draw_help_overlay(context, layout.window);

@@ -511,7 +511,8 @@ ResumedRecipe Document::to_prepare(const std::string& purpose,
     return resumed;
 }
 
-void Document::prepare(const std::string& purpose, std::optional<Step> again_from) {
+void Document::prepare(const std::string& purpose, std::optional<Step> again_from,
+                       const std::optional<Recipe>& changed) {
     if (!begin_request(RequestKind::Edit)) return;
     const ResumedRecipe resumed = to_prepare(purpose, again_from);
     if (!resumed.refusal.empty()) return fail(resumed.refusal, {});
@@ -519,7 +520,7 @@ void Document::prepare(const std::string& purpose, std::optional<Step> again_fro
     drop_preview();
     for (const std::string& remark : resumed.remarks) tell(make_message(plain_text(remark)));
     if (resumed.rest.empty()) return end_at_once(purpose, all_made_text(resumed));
-    preparation_ = Preparation{.recipe = resumed.rest,
+    preparation_ = Preparation{.recipe = changed.value_or(resumed.rest),
                                .purpose = purpose,
                                .project = project_,
                                .warnings = resumed.remarks.size()};

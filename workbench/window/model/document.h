@@ -157,7 +157,9 @@ public:
     /// nothing is, pending edits run.
     /// \param again_from the purpose's own edits from this step on are left out, and made again:
     /// one of repeatable_steps()
-    void prepare(const std::string& purpose, std::optional<Step> again_from = {});
+    /// \param changed the entries of to_prepare().rest with other arguments; none: as they are
+    void prepare(const std::string& purpose, std::optional<Step> again_from = {},
+                 const std::optional<Recipe>& changed = {});
 
     /// What prepare() would make, and why it would not.
     [[nodiscard]] ResumedRecipe to_prepare(const std::string& purpose,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
 #include "workbench/operations/table.h"
 #include "workbench/report/measure_table.h"
@@ -636,6 +637,15 @@ void Workplace::give_role(PatchKind role) {
 
 // --- questions for a file
 
+void Workplace::save_recipe(const std::filesystem::path& file) {
+    try {
+        write_recipe(file, recipe.recipe());
+        document.tell(make_message(MessageKind::Remark, "The recipe was saved: " + file.string()));
+    } catch (const IoError& error) {
+        document.tell(make_message(MessageKind::Error, error.what()));
+    }
+}
+
 void Workplace::ask(FileQuestion question, const std::string& parameter) {
     question_ = question;
     asked_parameter_ = parameter;
@@ -656,6 +666,8 @@ void Workplace::answer(const std::filesystem::path& file) {
             return;
         case FileQuestion::Measures:
             return document.write_table(file, measures_csv(measures.all()));
+        case FileQuestion::SaveRecipe:
+            return save_recipe(file);
         case FileQuestion::None:
             return;
     }

@@ -24,6 +24,7 @@
 #include "workbench/window/model/pick_target.h"
 #include "workbench/window/model/quality_analysis.h"
 #include "workbench/window/model/rail.h"
+#include "workbench/window/model/recipe_draft.h"
 #include "workbench/window/model/settings.h"
 #include "workbench/window/model/suggestion_gallery.h"
 #include "workbench/window/model/surface_places.h"
@@ -34,7 +35,7 @@
 namespace vesselbench {
 
 /// What a file is asked for.
-enum class FileQuestion { None, Open, SaveCopy, Export, Parameter, Picture, Measures };
+enum class FileQuestion { None, Open, SaveCopy, Export, Parameter, Picture, Measures, SaveRecipe };
 
 /// Everything the window is about, without drawing: the document, what the user has chosen and
 /// typed, and the lists that panels show.
@@ -50,6 +51,7 @@ public:
     Settings settings;
     ViewChoice view;
     MeasureList measures;
+    RecipeDraft recipe;  ///< that is about to be prepared
 
     // --- cases
 
@@ -364,6 +366,7 @@ private:
     void drop_form();
     void end_spots();
     void end_measures();
+    void save_recipe(const std::filesystem::path& file);
     void tell_difference();
     void tell_fallback();
     [[nodiscard]] bool update_places();

@@ -22,6 +22,7 @@ std::vector<std::string> suffixes_for(FileQuestion question) {
     if (question == FileQuestion::SaveCopy) return {".vbench"};
     if (question == FileQuestion::Picture) return {".png"};
     if (question == FileQuestion::Measures) return {".csv"};
+    if (question == FileQuestion::SaveRecipe) return {".json"};
     if (question == FileQuestion::Open) return openable_suffixes();
     if (question == FileQuestion::Parameter) {
         std::vector<std::string> suffixes = openable_suffixes();
@@ -48,6 +49,8 @@ const char* title_of(FileQuestion question) {
             return "Save a picture of the view";
         case FileQuestion::Measures:
             return "Export the measures";
+        case FileQuestion::SaveRecipe:
+            return "Save the recipe";
         case FileQuestion::None:
             break;
     }
@@ -68,6 +71,7 @@ bool can_have_volume(const Document& document) {
 const char* ending_for(FileQuestion question, bool volume) {
     if (question == FileQuestion::Picture) return ".png";
     if (question == FileQuestion::Measures) return ".csv";
+    if (question == FileQuestion::SaveRecipe) return " recipe.json";
     if (question != FileQuestion::Export) return " copy.vbench";
     return volume ? ".vtu" : ".stl";
 }
@@ -86,6 +90,7 @@ std::vector<ExportFormat> listed_formats(bool volume) {
 std::string needed_suffix(FileQuestion question) {
     if (question == FileQuestion::SaveCopy) return ".vbench";
     if (question == FileQuestion::Measures) return ".csv";
+    if (question == FileQuestion::SaveRecipe) return ".json";
     return question == FileQuestion::Picture ? ".png" : "";
 }
 
@@ -123,7 +128,8 @@ std::string size_text(std::uintmax_t bytes) {
 
 bool FileDialog::writes() const {
     return question_ == FileQuestion::SaveCopy || question_ == FileQuestion::Export ||
-           question_ == FileQuestion::Picture || question_ == FileQuestion::Measures;
+           question_ == FileQuestion::Picture || question_ == FileQuestion::Measures ||
+           question_ == FileQuestion::SaveRecipe;
 }
 
 void FileDialog::enter(const fs::path& folder) {

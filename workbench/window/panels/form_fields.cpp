@@ -16,9 +16,15 @@ namespace vesselbench {
 
 namespace {
 
-std::string item_name(const Parameter& parameter) {
-    return "field." + parameter.name;
-}
+struct FieldPanel {
+    PanelContext& c;
+    const FieldSink& sink;
+
+    /// The name of a field's item.
+    [[nodiscard]] std::string item(const FormField& field) const {
+        return sink.prefix + field.parameter->name;
+    }
+};
 
 /// What an empty field says: nothing takes the place of a file that was not given.
 std::string hint_of(const FormField& field) {
@@ -27,36 +33,36 @@ std::string hint_of(const FormField& field) {
     return file ? "none" : unset_text(field);
 }
 
-void edit_text(PanelContext& c, const FormField& field, float width) {
+void edit_text(const FieldPanel& p, const FormField& field, float width) {
     std::string text = field.text;
-    if (text_field(c.ui, item_name(*field.parameter), text,
+    if (text_field(p.c.ui, p.item(field), text,
                    {.hint = hint_of(field), .wrong = !field.error.empty(), .width = width}))
-        c.place.set_field(field.parameter->name, text);
+        p.sink.set(field.parameter->name, text);
 }
 
-void edit_file(PanelContext& c, const FormField& field) {
-    const float side = ImGui::GetFrameHeight(), gap = c.ui.grid(0.5F);
+void edit_file(const FieldPanel& p, const FormField& field) {
+    const float side = ImGui::GetFrameHeight(), gap = p.c.ui.grid(0.5F);
     const std::string name = field.parameter->name;
-    edit_text(c, field, ImGui::GetContentRegionAvail().x - side - gap);
+    edit_text(p, field, ImGui::GetContentRegionAvail().x - side - gap);
     ImGui::SameLine(0, gap);
-    if (icon_button(c.ui, item_name(*field.parameter) + ".browse", icons::kFolder, "Choose a file"))
-        c.place.ask(FileQuestion::Parameter, name);
+    if (icon_button(p.c.ui, p.item(field) + ".browse", icons::kFolder, "Choose a file"))
+        p.c.place.ask(FileQuestion::Parameter, name);
 }
 
 /// A place, with a button that lets it be picked in the view; listed labels need no text.
-void edit_place(PanelContext& c, const FormField& field) {
-    const float side = ImGui::GetFrameHeight(), gap = c.ui.grid(0.5F);
+void edit_place(const FieldPanel& p, const FormField& field) {
+    const float side = ImGui::GetFrameHeight(), gap = p.c.ui.grid(0.5F);
     const std::string name = field.parameter->name;
     const float left = ImGui::GetCursorPosX(),
                 width = ImGui::GetContentRegionAvail().x - side - gap;
-    if (lists_labels(c, field))
-        draw_label_count(c, field);
+    if (lists_labels(p.c, field))
+        draw_label_count(p.c, field);
     else
-        edit_text(c, field, width);
+        edit_text(p, field, width);
     ImGui::SameLine(left + width + gap);
-    if (icon_button(c.ui, item_name(*field.parameter) + ".pick", icons::kTarget, "Pick in the view",
-                    true, c.place.armed() == name))
-        c.place.arm(name);
+    if (icon_button(p.c.ui, p.item(field) + ".pick", icons::kTarget, "Pick in the view", true,
+                    p.c.place.armed() == name))
+        p.c.place.arm(name);
 }
 
 /// What a choice shows while nothing is given: one of its texts, or that it is automatic.
@@ -65,46 +71,46 @@ std::string unset_choice(const FormField& field) {
     return value ? to_text(*value) : unset_text(field);
 }
 
-void edit_choice(PanelContext& c, const FormField& field) {
+void edit_choice(const FieldPanel& p, const FormField& field) {
     const std::string unset = unset_choice(field);
     std::vector<std::string> options = field.parameter->choices;
     if (std::ranges::count(options, unset) == 0) options.insert(options.begin(), unset);
     std::string chosen = field.text.empty() ? unset : field.text;
-    if (choice(c.ui, item_name(*field.parameter), options, chosen))
-        c.place.set_field(field.parameter->name, chosen == unset ? "" : chosen);
+    if (choice(p.c.ui, p.item(field), options, chosen))
+        p.sink.set(field.parameter->name, chosen == unset ? "" : chosen);
 }
 
-void edit_flag(PanelContext& c, const FormField& field) {
+void edit_flag(const FieldPanel& p, const FormField& field) {
     const std::string unset = unset_choice(field);
     bool on = (field.text.empty() ? unset : field.text) == "true";
-    if (!checkbox(c.ui, item_name(*field.parameter), "", on)) return;
+    if (!checkbox(p.c.ui, p.item(field), "", on)) return;
     const std::string text = on ? "true" : "false";
-    c.place.set_field(field.parameter->name, text == unset ? "" : text);
+    p.sink.set(field.parameter->name, text == unset ? "" : text);
 }
 
-void edit_number(PanelContext& c, const FormField& field) {
+void edit_number(const FieldPanel& p, const FormField& field) {
     const std::string unit = readable_unit(field.parameter->unit);
-    const float gap = c.ui.grid(0.75F), wide = ImGui::CalcTextSize(unit.c_str()).x + gap;
-    const float room = unit.empty() ? 0 : std::max(c.ui.em * 2.6F, wide);
-    edit_text(c, field, ImGui::GetContentRegionAvail().x - room);
+    const float gap = p.c.ui.grid(0.75F), wide = ImGui::CalcTextSize(unit.c_str()).x + gap;
+    const float room = unit.empty() ? 0 : std::max(p.c.ui.em * 2.6F, wide);
+    edit_text(p, field, ImGui::GetContentRegionAvail().x - room);
     if (unit.empty()) return;
     ImGui::SameLine(0, gap);
-    text(c.ui, unit, c.ui.theme.muted);
+    text(p.c.ui, unit, p.c.ui.theme.muted);
 }
 
-void edit(PanelContext& c, const FormField& field) {
-    if (pick_target(*field.parameter)) return edit_place(c, field);
+void edit(const FieldPanel& p, const FormField& field) {
+    if (pick_target(*field.parameter)) return edit_place(p, field);
     switch (field.parameter->type) {
         case ParameterType::Flag:
-            return edit_flag(c, field);
+            return edit_flag(p, field);
         case ParameterType::Choice:
-            return edit_choice(c, field);
+            return edit_choice(p, field);
         case ParameterType::File:
-            return edit_file(c, field);
+            return edit_file(p, field);
         case ParameterType::Text:
-            return edit_text(c, field, -1);
+            return edit_text(p, field, -1);
         default:
-            return edit_number(c, field);
+            return edit_number(p, field);
     }
 }
 
@@ -120,20 +126,20 @@ void draw_label(const PanelContext& c, const FormField& field, float width) {
 }
 
 /// \return true if the mouse or the keyboard is in the field's line
-bool draw_field(PanelContext& c, const FormField& field) {
+bool draw_field(const FieldPanel& p, const FormField& field) {
     const float whole = ImGui::GetContentRegionAvail().x, label = whole * 0.4F;
     const float left = ImGui::GetCursorPosX();
     const ImVec2 from = ImGui::GetCursorScreenPos();
-    draw_label(c, field, label - c.ui.grid(1));
+    draw_label(p.c, field, label - p.c.ui.grid(1));
     ImGui::SameLine(left + label);
-    edit(c, field);
+    edit(p, field);
     const bool typing = ImGui::IsItemActive();
     const bool over = ImGui::IsMouseHoveringRect(
         from, {from.x + whole, from.y + ImGui::GetFrameHeight() + ImGui::GetStyle().ItemSpacing.y});
-    if (lists_labels(c, field)) draw_label_rows(c, field);
+    if (lists_labels(p.c, field)) draw_label_rows(p.c, field);
     if (!field.error.empty()) {
-        wrapped(c.ui, field.error, c.ui.theme.danger);
-        space(c.ui, 0.5F);
+        wrapped(p.c.ui, field.error, p.c.ui.theme.danger);
+        space(p.c.ui, 0.5F);
     }
     return typing ||
            (over && ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem));
@@ -144,8 +150,11 @@ bool is_given(const FormField& field) {
 }
 
 /// What an earlier run or a stroke fills in is no field until it has.
-bool is_shown(const FormField& field) {
-    return field.active && (field.parameter->use != Use::Recorded || is_given(field));
+bool is_shown(const FieldPanel& p, const FormField& field) {
+    const bool needs_view =
+        pick_target(*field.parameter) || field.parameter->type == ParameterType::File;
+    return field.active && (p.sink.in_view || !needs_view) &&
+           (field.parameter->use != Use::Recorded || is_given(field));
 }
 
 bool is_rare(const FormField& field) {
@@ -155,37 +164,39 @@ bool is_rare(const FormField& field) {
 /// Editing a field changes the form: its fields are read one by one.
 /// \return the parameter under the mouse or with the keyboard; null: none
 template <class Wanted>
-const Parameter* draw_fields(PanelContext& c, const OperationForm& form, const Wanted& wanted) {
+const Parameter* draw_fields(const FieldPanel& p, const OperationForm& form, const Wanted& wanted) {
     const Parameter* shown = nullptr;
     for (std::size_t i = 0; i < form.fields().size(); ++i) {
         const FormField field = form.fields()[i];
-        if (is_shown(field) && wanted(field) && draw_field(c, field)) shown = field.parameter;
+        if (is_shown(p, field) && wanted(field) && draw_field(p, field)) shown = field.parameter;
     }
     return shown;
 }
 
 /// Unfolds or folds the fields that are seldom needed; those that are given stay. \return true if
 /// all are seen
-bool draw_more(PanelContext& c, const OperationForm& form) {
-    const auto folds = [](const FormField& field) { return is_shown(field) && is_rare(field); };
+bool draw_more(const FieldPanel& p, const OperationForm& form) {
+    const auto folds = [&](const FormField& field) { return is_shown(p, field) && is_rare(field); };
     const auto count = std::ranges::count_if(form.fields(), folds);
     if (count == 0) return false;
-    const std::string& name = form.operation().name;
-    const bool open = c.shown.unfolded_form == name;
-    space(c.ui, 0.5F);
-    if (button(c.ui, "field.more",
+    const std::string name = p.sink.prefix + form.operation().name;
+    const bool open = p.c.shown.unfolded_form == name;
+    space(p.c.ui, 0.5F);
+    if (button(p.c.ui, p.sink.prefix + "more",
                open ? "Less" : "More: " + counted(static_cast<std::size_t>(count), "field"),
                {.icon = open ? icons::kDown : icons::kRight, .quiet = true}))
-        c.shown.unfolded_form = open ? "" : name;
+        p.c.shown.unfolded_form = open ? "" : name;
     return open;
 }
 
 }  // namespace
 
-const Parameter* draw_form_fields(PanelContext& c, OperationForm& form) {
-    const Parameter* usual = draw_fields(c, form, std::not_fn(is_rare));
-    const bool all = draw_more(c, form);
-    const Parameter* rare = draw_fields(c, form, [all](const FormField& field) {
+const Parameter* draw_form_fields(PanelContext& c, const OperationForm& form,
+                                  const FieldSink& sink) {
+    const FieldPanel p{c, sink};
+    const Parameter* usual = draw_fields(p, form, std::not_fn(is_rare));
+    const bool all = draw_more(p, form);
+    const Parameter* rare = draw_fields(p, form, [all](const FormField& field) {
         return is_rare(field) && (all || is_given(field));
     });
     return rare != nullptr ? rare : usual;

@@ -279,7 +279,10 @@ void draw_tab(PanelContext& c, const std::string& name, const std::string& label
 /// What the form says, or what comes of it. \return the parameter to be explained; null: none
 const Parameter* draw_contents(PanelContext& c, OperationForm& form) {
     if (c.place.openings().has_form()) draw_openings_panel(c);
-    if (!shows_live(c)) return draw_form_fields(c, form);
+    const auto set = [&](const std::string& parameter, const std::string& text) {
+        c.place.set_field(parameter, text);
+    };
+    if (!shows_live(c)) return draw_form_fields(c, form, {.prefix = "field.", .set = set});
     if (c.place.live().has_form())
         draw_live_panel(c, form);
     else if (c.place.extraction().has_form())

@@ -33,11 +33,12 @@ struct Shown {
     BottomTab bottom = BottomTab::History;
     FormTab form = FormTab::Fields;  ///< of forms that can be followed live
     QualityView quality = QualityView::Graphs;
-    std::string unfolded_form;  ///< operation whose seldom needed fields are seen; empty: none
+    std::string unfolded_form;  ///< whose seldom needed fields are seen: prefix and operation
     bool help = false;
     bool prepare = false;                   ///< the question for what to prepare
     std::string purpose = kDefaultVariant;  ///< answer so far
     std::optional<Step> again_from;         ///< of its own steps, to be made again; none: missing
+    std::optional<std::size_t> entry;       ///< of the recipe, whose values are seen
     std::optional<NoteInProgress> note;     ///< the dialog for it
     std::set<EditId> unfolded;              ///< first edits of strokes that the rail lists singly
     bool view = false;                      ///< the view's options

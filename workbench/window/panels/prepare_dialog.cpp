@@ -9,6 +9,7 @@
 #include "workbench/case/purposes.h"
 #include "workbench/window/model/rail.h"
 #include "workbench/window/model/readable.h"
+#include "workbench/window/panels/form_fields.h"
 #include "workbench/window/panels/panel_frame.h"
 #include "workbench/window/style/icons.h"
 #include "workbench/window/widgets/controls.h"
@@ -36,6 +37,7 @@ void draw_purposes(PanelContext& c) {
                  .strong = true})) {
             c.shown.purpose = purpose.name;
             c.shown.again_from.reset();
+            c.shown.entry.reset();
         }
 }
 
@@ -57,12 +59,31 @@ void draw_extent(PanelContext& c, const ResumedRecipe& resumed) {
     c.shown.again_from = found == steps.end() ? std::nullopt : std::optional(*found);
 }
 
-void draw_entry(const Ui& ui, const RecipeEntry& entry, int number) {
-    const std::string arguments = argument_summary(entry.given.operation(), entry.given);
-    text(ui, std::to_string(number) + ".  " + readable(entry.given.operation().name),
-         ui.theme.text);
-    ImGui::SameLine();
-    clipped_text(ui, arguments, ui.theme.muted, ImGui::GetContentRegionAvail().x - ui.grid(1));
+/// The values of an entry, to be changed before it runs.
+void draw_values(PanelContext& c, std::size_t entry) {
+    const auto set = [&](const std::string& parameter, const std::string& text) {
+        c.place.recipe.set(entry, parameter, text);
+    };
+    const Parameter* parameter =
+        draw_form_fields(c, c.place.recipe.forms()[entry],
+                         {.prefix = "prepare.field.", .set = set, .in_view = false});
+    if (parameter != nullptr)
+        tooltip(c.ui, readable(parameter->name) + ": " + parameter->help + ".");
+    space(c.ui, 1);
+}
+
+void draw_entry(PanelContext& c, std::size_t entry) {
+    const OperationForm& form = c.place.recipe.forms()[entry];
+    const bool open = c.shown.entry == entry;
+    const std::string number = std::to_string(entry + 1);
+    if (row(c.ui, "prepare.entry." + number,
+            {.icon = open ? icons::kDown : icons::kRight,
+             .title = number + ".  " + readable(form.operation().name),
+             .detail = form.valid() ? argument_summary(form.operation(), form.arguments()) : "",
+             .right = c.place.recipe.is_changed(entry) ? "changed" : "",
+             .help = open ? "Fold the values" : "Change the values of this edit"}))
+        c.shown.entry = open ? std::nullopt : std::optional(entry);
+    if (open) draw_values(c, entry);
 }
 
 void draw_entries(PanelContext& c, const ResumedRecipe& resumed) {
@@ -73,8 +94,7 @@ void draw_entries(PanelContext& c, const ResumedRecipe& resumed) {
                        false);
     group_heading(c.ui, "These edits will be made");
     space(c.ui, 0.5F);
-    int number = 0;
-    for (const RecipeEntry& entry : resumed.rest) draw_entry(c.ui, entry, ++number);
+    for (std::size_t i = 0; i < c.place.recipe.forms().size(); ++i) draw_entry(c, i);
     if (!c.shown.again_from) return;
     space(c.ui, 0.5F);
     wrapped(c.ui,
@@ -83,16 +103,33 @@ void draw_entries(PanelContext& c, const ResumedRecipe& resumed) {
             c.ui.theme.muted);
 }
 
+/// What becomes of changed values beside running them.
+void draw_recipe_buttons(PanelContext& c) {
+    RecipeDraft& recipe = c.place.recipe;
+    if (button(c.ui, "prepare.save", "Save as a recipe",
+               {.enabled = !recipe.forms().empty() && recipe.error().empty(),
+                .help = "A file of these edits and values, which other cases can be prepared by"}))
+        c.place.ask(FileQuestion::SaveRecipe);
+    ImGui::SameLine(0, c.ui.grid(1));
+    if (button(c.ui, "prepare.restore", "Restore",
+               {.enabled = recipe.is_changed(), .help = "Take back all changes of the values"}))
+        recipe.reset();
+    ImGui::SameLine();
+}
+
 void draw_buttons(PanelContext& c, bool possible) {
+    draw_recipe_buttons(c);
+    const RecipeDraft& recipe = c.place.recipe;
     const float width = c.ui.em * 8;
     ImGui::SetCursorPosX(ImGui::GetWindowWidth() - c.ui.grid(2.5F) - 2 * width - c.ui.grid(1));
     if (button(c.ui, "prepare.cancel", "Cancel", {.width = width})) c.shown.prepare = false;
     ImGui::SameLine(0, c.ui.grid(1));
     if (!button(c.ui, "prepare.run", "Prepare",
-                {.primary = true, .enabled = possible, .width = width}))
+                {.primary = true, .enabled = possible && recipe.error().empty(), .width = width}))
         return;
     c.place.leave_form();
-    c.place.document.prepare(c.shown.purpose, std::exchange(c.shown.again_from, std::nullopt));
+    c.place.document.prepare(c.shown.purpose, std::exchange(c.shown.again_from, std::nullopt),
+                             recipe.is_changed() ? std::optional(recipe.recipe()) : std::nullopt);
     c.shown.prepare = false;
 }
 
@@ -102,10 +139,11 @@ void draw_prepare_dialog(PanelContext& c, const ScreenRect& window) {
     const Ui& ui = c.ui;
     begin_dialog(ui, "prepare", window, ui.em * 52, ui.em * 29);
     heading(ui, "Prepare the model");
-    wrapped(ui,
-            "A recipe runs on the case as it is now. Each of its edits can be changed or undone "
-            "afterwards.",
-            ui.theme.muted, false);
+    wrapped(
+        ui,
+        "A recipe runs on the case as it is now. Each of its edits can be changed now, or changed "
+        "and undone afterwards.",
+        ui.theme.muted, false);
     space(ui, 1.5F);
     const float height = ImGui::GetContentRegionAvail().y - ImGui::GetFrameHeight() - ui.grid(2);
     ImGui::BeginChild("purposes", {ui.em * 20, height});
@@ -118,6 +156,7 @@ void draw_prepare_dialog(PanelContext& c, const ScreenRect& window) {
     ResumedRecipe resumed = c.place.document.to_prepare(c.shown.purpose);
     draw_extent(c, resumed);
     if (c.shown.again_from) resumed.rest = rest_from(*c.shown.again_from, resumed);
+    c.place.recipe.follow(resumed.rest);
     draw_entries(c, resumed);
     ImGui::EndChild();
     space(ui, 1);
