@@ -282,7 +282,7 @@ Arguments decided_arguments(const Scene& scene, const CheckedArguments& argument
     return found;
 }
 
-std::vector<Parameter> source_parameters() {
+std::vector<Parameter> threshold_parameters() {
     using enum ParameterType;
     const Condition of_intensities{"method", {"auto", "threshold", "masked"}};
     return {
@@ -313,7 +313,13 @@ std::vector<Parameter> source_parameters() {
          .help = "side of the threshold on which the vessel lies; default: above, or for a level "
                  "set the side away from the image's border",
          .choices = {"above", "below"},
-         .only_with = of_intensities},
+         .only_with = of_intensities}};
+}
+
+/// Of labels and masks, and which bodies are kept.
+std::vector<Parameter> label_parameters() {
+    using enum ParameterType;
+    return {
         {.name = "labels",
          .type = List,
          .help = "labels of the vessel, as 1,2,3; default: every label above 0",
@@ -399,8 +405,9 @@ std::vector<Parameter> cleaning_parameters() {
 }  // namespace
 
 Operation extract_surface_operation() {
-    std::vector<Parameter> parameters = source_parameters();
-    for (Parameter& parameter : cleaning_parameters()) parameters.push_back(std::move(parameter));
+    std::vector<Parameter> parameters = threshold_parameters();
+    for (const auto& more : {label_parameters(), cleaning_parameters()})
+        parameters.insert(parameters.end(), more.begin(), more.end());
     return {.name = "extract-surface",
             .usual_step = Step::Source,
             .allowed = {Step::Source},

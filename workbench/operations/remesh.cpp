@@ -179,9 +179,13 @@ std::vector<SearchedParameter> searched_parameters(const Surface& surface, bool 
     return {edge, {.name = "gradation", .values = {1.1, 1.2, 1.3, 1.5, 1.75, 2.0, 2.5, 3.0}}};
 }
 
-std::vector<Parameter> parameters() {
+const Condition& when_graded() {
+    static const Condition condition{"mode", {"graded"}};
+    return condition;
+}
+
+std::vector<Parameter> edge_parameters() {
     using enum ParameterType;
-    const Condition when_graded{"mode", {"graded"}};
     return {
         {.name = "mode",
          .type = Choice,
@@ -200,13 +204,13 @@ std::vector<Parameter> parameters() {
          .help = "shortest edge; default: a fifth of edge, or shorter where the vessel is so thin",
          .minimum = 0.0,
          .above_minimum = true,
-         .only_with = when_graded},
+         .only_with = when_graded()},
         {.name = "max_edge",
          .unit = "mm",
          .help = "longest edge; default: twice edge",
          .minimum = 0.0,
          .above_minimum = true,
-         .only_with = when_graded},
+         .only_with = when_graded()},
         {.name = "radius",
          .type = Choice,
          .default_value = "centerlines",
@@ -220,8 +224,13 @@ std::vector<Parameter> parameters() {
          .help = "largest ratio of neighbouring edge lengths",
          .minimum = 1.05,
          .maximum = 3.0,
-         .only_with = when_graded,
-         .use = Use::Rare},
+         .only_with = when_graded(),
+         .use = Use::Rare}};
+}
+
+/// What is seldom needed.
+std::vector<Parameter> other_parameters() {
+    return {
         {.name = "feature_angle",
          .unit = "deg",
          .help = "also keep sharp edges, which bend by more than this (90: a cube's) and "
@@ -245,8 +254,14 @@ std::vector<Parameter> parameters() {
                  "prepare --for rp uses 0.1",
          .minimum = 0.0,
          .maximum = 10.0,
-         .only_with = when_graded,
+         .only_with = when_graded(),
          .use = Use::Rare}};
+}
+
+std::vector<Parameter> parameter_table() {
+    std::vector<Parameter> table = edge_parameters();
+    for (Parameter& parameter : other_parameters()) table.push_back(std::move(parameter));
+    return table;
 }
 
 }  // namespace
@@ -259,7 +274,7 @@ Operation remesh_operation() {
                     Step::Smoothing, Step::Deformation, Step::Remeshing},
         .summary =
             "remesh the surface with well-shaped triangles; rims, flat caps and patches are kept",
-        .parameters = parameters(),
+        .parameters = parameter_table(),
         .run = &run,
         .decided = &decided_arguments,
         .thesis = "3.3.2, 4.2.9",

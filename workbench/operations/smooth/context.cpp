@@ -40,12 +40,9 @@ std::vector<Cap> caps_of(ContextFinder& finder, const Arguments& arguments) {
     return caps;
 }
 
-}  // namespace
-
-std::vector<Parameter> context_parameter_table() {
+std::vector<Parameter> constraint_parameters() {
     using enum ParameterType;
-    const Condition when_staircase{"staircase", {"true"}};
-    std::vector<Parameter> table = {
+    return {
         {.name = "constraint",
          .type = Choice,
          .default_value = std::string("none"),
@@ -61,6 +58,14 @@ std::vector<Parameter> context_parameter_table() {
          .above_minimum = true,
          .only_with = Condition{"constraint", {"voxel", "diamond"}},
          .use = Use::Rare}};
+}
+
+}  // namespace
+
+std::vector<Parameter> context_parameter_table() {
+    using enum ParameterType;
+    const Condition when_staircase{"staircase", {"true"}};
+    std::vector<Parameter> table = constraint_parameters();
     const WeighedAction action{
         .doing = "smoothing",
         .staircase_help =
