@@ -98,6 +98,7 @@ private:
     void add(const Parameter& parameter) {
         if (is_decision(parameter) && !dice_.chance(kOdd)) return;
         if (parameter.name == "device") return;  // results of a GPU are equal to a tolerance only
+        if (parameter.only_with && left_out_.contains(parameter.only_with->parameter)) return;
         if (parameter.only_with && !drawn_.has(parameter.only_with->parameter))
             drawn_.set(parameter.only_with->parameter, met(*parameter.only_with));
         drawn_.set(parameter.name, value(parameter));
