@@ -214,8 +214,8 @@ private:
     Run run_;
 };
 
-Arguments decided_arguments(const Scene& scene, const CheckedArguments& arguments,
-                            const Progress&) {
+Arguments decided_decimation(const Scene& scene, const CheckedArguments& arguments,
+                             const Progress&) {
     Arguments decided = arguments;
     const Surface& surface = surface_of(scene);
     static_cast<void>(target_from(surface, decided));
@@ -291,7 +291,7 @@ Operation decimate_operation() {
                 "and patches are kept",
             .parameters = parameter_table(),
             .start = &started<LiveDecimation>,
-            .decided = &decided_arguments,
+            .decided = &decided_decimation,
             .thesis = "5.6, 7.2",
             .search = {.parameters = &searched_parameters,
                        .rivals = {"triangles"},

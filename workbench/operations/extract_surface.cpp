@@ -265,8 +265,8 @@ private:
     Arguments resolved_;
 };
 
-Arguments decided_arguments(const Scene& scene, const CheckedArguments& arguments,
-                            const Progress& progress) {
+Arguments decided_extraction(const Scene& scene, const CheckedArguments& arguments,
+                             const Progress& progress) {
     const ExtractionParameters decided =
         SurfaceExtractor(image_of(scene), scene.mask)
             .decided(extraction_parameters(arguments, scene.mask.has_value()), progress);
@@ -414,7 +414,7 @@ Operation extract_surface_operation() {
             .summary = "make a surface from the image by threshold, labels or both",
             .parameters = std::move(parameters),
             .start = &started<LiveExtraction>,
-            .decided = &decided_arguments,
+            .decided = &decided_extraction,
             .thesis = "3.2.1-3.2.3",
             .recipe = {.makes_source = true},
             .example = {.scene = ExampleScene::Image, .changed = {{"gaussian", 0.125}}}};

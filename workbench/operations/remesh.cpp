@@ -140,7 +140,7 @@ Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) 
     return outcome;
 }
 
-Arguments decided_arguments(const Scene& scene, const CheckedArguments& arguments,
+Arguments decided_remeshing(const Scene& scene, const CheckedArguments& arguments,
                             const Progress& progress) {
     const Surface& surface = surface_of(scene);
     Outcome outcome;
@@ -258,7 +258,7 @@ std::vector<Parameter> other_parameters() {
          .use = Use::Rare}};
 }
 
-std::vector<Parameter> parameter_table() {
+std::vector<Parameter> remesh_parameters() {
     std::vector<Parameter> table = edge_parameters();
     for (Parameter& parameter : other_parameters()) table.push_back(std::move(parameter));
     return table;
@@ -274,9 +274,9 @@ Operation remesh_operation() {
                     Step::Smoothing, Step::Deformation, Step::Remeshing},
         .summary =
             "remesh the surface with well-shaped triangles; rims, flat caps and patches are kept",
-        .parameters = parameter_table(),
+        .parameters = remesh_parameters(),
         .run = &run,
-        .decided = &decided_arguments,
+        .decided = &decided_remeshing,
         .thesis = "3.3.2, 4.2.9",
         .search = {.parameters = &searched_parameters,
                    .rivals = {"min_edge", "max_edge"},

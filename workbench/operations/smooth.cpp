@@ -166,7 +166,7 @@ bool asks_for_gpu(const Arguments& arguments) {
     return device_choice_from(arguments.text("device")) == DeviceChoice::Gpu;
 }
 
-Arguments decided_arguments(const Scene& scene, const CheckedArguments& arguments,
+Arguments decided_smoothing(const Scene& scene, const CheckedArguments& arguments,
                             const Progress&) {
     Arguments decided = arguments;
     resolve_filter(scene, decided);
@@ -223,7 +223,7 @@ Operation smooth_operation() {
             .start = &started<LiveSmoothing>,
             .stays_here = &asks_for_gpu,
             .suggested = &suggested_arguments,
-            .decided = &decided_arguments,
+            .decided = &decided_smoothing,
             .thesis = "3.3.4, 5",
             .recipe = {.volume_remedies = {{.arguments = {{"iterations", ""}}},
                                            {.arguments = {{"filter", "taubin"}}}}},

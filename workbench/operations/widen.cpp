@@ -26,7 +26,7 @@ double width_from_sampling(const Scene& scene) {
     return kVoxels * scene.sampling->spacing.minCoeff();
 }
 
-Arguments decided_arguments(const Scene& scene, const CheckedArguments&, const Progress&) {
+Arguments decided_width(const Scene& scene, const CheckedArguments&, const Progress&) {
     return {{"width", width_from_sampling(scene)}};
 }
 
@@ -96,7 +96,7 @@ Operation widen_operation() {
                             .minimum = 0.0,
                             .above_minimum = true}},
             .run = &run,
-            .decided = &decided_arguments,
+            .decided = &decided_width,
             .thesis = "4.2.4",
             .example = {.given = {{"width", 2.25}}, .changed = {{"width", 2.375}}}};
 }

@@ -44,6 +44,7 @@ enum class MarkLook {
 /// A disc, with a label beside it unless that is empty, drawn into ImGui's current window.
 void draw_mark(const Ui& ui, const ViewPixel& at, MarkLook look, const std::string& label);
 
+inline constexpr float kClickReach = 0.3F;    ///< the mouse may move so far in a click [em]
 inline constexpr double kHandleReach = 0.85;  ///< a cursor so near to a handle is over it [em]
 inline constexpr Paint kRegionPaint = paint(0xE07A10);  ///< of handles, and of regions in slices
 

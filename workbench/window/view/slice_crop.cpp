@@ -8,8 +8,6 @@ namespace vesselbench {
 
 namespace {
 
-constexpr float kClickReach = 0.3F;  ///< the mouse may move so far in a click [em]
-
 /// The place in the slice under the cursor, as a handle that is free to move there.
 Handle place_at_cursor(const PixelView& screen) {
     Handle place{.name = "crop.rectangle", .point = screen.camera.centre};

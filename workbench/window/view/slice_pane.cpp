@@ -20,7 +20,6 @@ namespace {
 constexpr Paint kBack = paint(0x0B0D10);  ///< behind slices, in both themes
 constexpr double kMargin = 0.03;          ///< around a whole slice [-]
 constexpr double kZoomPerNotch = 1.15;    ///< of the wheel
-constexpr float kClickReach = 0.3F;       ///< the mouse may move so far in a click [em]
 constexpr double kWindowDrag = 10.0;      ///< a drag by this changes the window by e [em]
 constexpr double kNearSlice = 0.75;       ///< marks so near are shown [slices]
 constexpr float kCrossGap = 0.7F;         ///< around the cross, so that what is there is seen [em]

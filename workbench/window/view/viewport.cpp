@@ -31,8 +31,6 @@ namespace vesselbench {
 
 namespace {
 
-constexpr float kClickReach = 0.3F;  ///< the mouse may move so far in a click [em]
-
 /// What the mouse does in the view in this frame.
 struct ViewMouse {
     bool over = false;        ///< the view, and no control in it
