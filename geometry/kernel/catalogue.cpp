@@ -167,6 +167,11 @@ constexpr CatalogueText kTexts[] = {
     {"small-ends-closed",
      "{ends#smaller end|smaller ends} stayed closed: see the report[; {fix} opens "
      "{opened:%.0f} of them]"},
+    {"opening-gone",
+     "the opening '{opening}' at {place} was left out: its vessel is not there any longer"},
+    {"inlet-gone",
+     "the vessel of the inlet '{opening}' at {place} is not there any longer: choose another "
+     "inlet ({fix})"},
     {"flat-end-tilted",
      "a flat end was kept although tilted against the vessel's axis: {openings}; {fix} cuts it "
      "across"},

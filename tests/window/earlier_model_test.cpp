@@ -260,25 +260,38 @@ SCENARIO("A forgotten branch is removed after the model was filled", "[window][e
     CHECK(bounds(desk.surface()).min.x() > -4.0);
 }
 
-SCENARIO("Openings are chosen again where the end of a removed branch was one",
-         "[window][earlier]") {
-    Desk desk(y_file(), {{"clip-opening", {}}, {"remesh", {{"edge", 0.5}}}});
+SCENARIO("A removed branch takes its opening and its extension along", "[window][earlier]") {
+    Desk desk(y_file(),
+              {{"clip-opening", {}}, {"extrude-opening", {}}, {"remesh", {{"edge", 0.5}}}});
     REQUIRE(desk.surface().patches.size() == 4);
+    const double low = bounds(desk.surface()).min.z();
+    REQUIRE(low < -22.0);
     desk.place.choose("remove-branch");
     desk.settle();
     pick_left_end(desk);
     desk.apply();
-    desk.document.run_pending();
+    desk.run_pending();
+    CHECK(desk.surface().patches.size() == 3);
+    CHECK(bounds(desk.surface()).min.x() > -4.0);
+    CHECK(bounds(desk.surface()).min.z() == Approx(low).margin(3.0));
+    CHECK(std::ranges::any_of(desk.document.snapshot()->log, [](const LogEntry& entry) {
+        return entry.result &&
+               std::ranges::count(entry.result->warnings, "opening-gone", &Diagnostic::code) == 1;
+    }));
+}
+
+SCENARIO("An extension of all openings takes those that there are", "[window][earlier]") {
+    Desk desk(y_file(), {{"clip-opening", {}}, {"extrude-opening", {}}});
+    REQUIRE(desk.surface().patches.size() == 4);
+    REQUIRE(bounds(desk.surface()).max.x() > 14.0);
+    desk.place.choose_edit(2);
     desk.settle();
-    const LogEntry* stale = first_stale(*desk.document.snapshot(), "cfd");
-    REQUIRE(stale != nullptr);
-    REQUIRE(stale->edit.operation == "clip-opening");
-    desk.place.choose_edit(stale->edit.edit.id);
-    desk.settle();
-    CHECK(bounds(desk.surface()).min.x() > -4.0);  // the branch is gone there
+    desk.place.set_field("closed", "11.8,0,16.9");
     desk.apply();
     desk.run_pending();
     CHECK(desk.surface().patches.size() == 3);
+    CHECK(bounds(desk.surface()).max.x() < 13.5);
+    CHECK(bounds(desk.surface()).min.x() < -14.0);
 }
 
 SCENARIO("The other end of a filled model becomes the inlet", "[window][earlier]") {

@@ -266,6 +266,32 @@ SCENARIO("Ends are named by their numbers, and stored as places", "[workbench][o
                     UsageError);
 }
 
+SCENARIO("The opening of a branch that was removed later is left out", "[workbench][openings]") {
+    const Surface surface = side_branched();
+    const std::vector<double> end{16, 0, 20};
+    const Surface left = *run("remove-branch", surface, {{"tip", Vec3(16, 0, 20)}}).scene.surface;
+    const Surface tube = fine_tube(2.0, 20.0, 24);
+    const Surface beside =
+        mapped(tube.with_patches(PatchLabels(tube.triangle_count(), 0), {tube.patches[0]}),
+               [](const Vec3& p) { return Vec3(p.z() + 5.0, p.x() + 30.0, p.y() + 20.0); });
+    GIVEN("that its plane meets another vessel") {
+        const Outcome all = run("clip-opening", surface, {{"open", end}});
+        REQUIRE(all.scene.surface->patches.size() == 4);
+        const Surface both = merged(left, beside);
+        const Outcome again = run("clip-opening", both, all.resolved);
+        CHECK(again.scene.surface->patches.size() == 3);
+        CHECK(bounds(*again.scene.surface).max.x() == Approx(25.0));
+        CHECK(std::ranges::count(again.warnings, "opening-gone", &Diagnostic::code) == 1);
+        check_replay("clip-opening", both, again);
+    }
+    GIVEN("that it was the inlet") {
+        const Outcome all = run("clip-opening", surface, {{"inlet", end}});
+        REQUIRE(all.scene.surface->patches.size() == 4);
+        CHECK_THROWS_WITH(run("clip-opening", left, all.resolved),
+                          Contains("choose another inlet"));
+    }
+}
+
 SCENARIO("The inlet beside one end is an opening that the point is at", "[workbench][openings]") {
     const Surface tube = open_tube(2.0, 30.0, 40, 90);
     const auto clipped = [&](const Surface& surface, const Vec3& tip, std::vector<double> inlet) {

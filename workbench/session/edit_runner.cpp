@@ -89,6 +89,21 @@ bool chose_places(const Operation& operation, const Arguments& given, const Argu
     });
 }
 
+/// True for an edit of whatever openings there are: their names and diameters are the model's.
+bool takes_all_openings(const Operation& operation, const Arguments& given) {
+    return std::ranges::any_of(operation.parameters, [&](const Parameter& parameter) {
+        return parameter.meaning == Meaning::Openings && !given.has(parameter.name);
+    });
+}
+
+/// What an edit runs with on another input: what it decided before is kept, so that it does again
+/// what the user has seen.
+const Arguments& arguments_again(const Operation& operation, const Arguments& given,
+                                 const ResultRecord* before) {
+    const bool decides = before == nullptr || takes_all_openings(operation, given);
+    return decides ? given : before->resolved;
+}
+
 /// A diagnostic's text without its figures.
 std::string words_of(const Diagnostic& diagnostic) {
     std::string text = text_of(diagnostic);
@@ -137,9 +152,9 @@ EditRun EditRunner::run_pending(EditRef ref, Scene input, const Progress& progre
     const EditRecord edit = store_->edit(ref);
     const HistoryResult* earlier = store_->history().newest_result_of(ref);
     const auto record = earlier != nullptr ? store_->record(earlier->id) : nullptr;
-    const Arguments& arguments = record ? record->resolved : edit.given;
     try {
         const Operation& operation = options_->find(edit.operation);
+        const Arguments& arguments = arguments_again(operation, edit.given, record.get());
         EditRun done = run(operation, input, located(operation, ref, arguments), progress);
         if (!record) return done;
         const auto first = first_result(store_->history(), ref);

@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "geometry/kernel/cross_section.h"
 #include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
@@ -27,6 +28,9 @@ constexpr int kMostPlans = 12;
 
 /// An opening so far away is not meant by a point [diameters].
 constexpr double kFarthestInlet = 2.0;
+
+/// A section farther away from where an opening was planned is another vessel's [its diameters].
+constexpr double kSameVessel = 1.0;
 
 void name_opening(OpeningPlan& plan, const Arguments& arguments) {
     const auto kind = arguments.optional_text("kind");
@@ -138,8 +142,40 @@ void name_by_numbers(const Surface& surface, const Arguments& arguments,
     }
 }
 
+/// True if the vessel that an opening was planned for is not there any longer.
+bool is_gone(const Surface& surface, const PlannedOpening& opening) {
+    if (opening.way != OpeningWay::Cut) return false;
+    const Plane& plane = opening.place.plane;
+    const auto curve = cross_section_at(surface, plane);
+    if (!curve) return true;
+    const bool far = (curve->centroid - plane.point).norm() > kSameVessel * curve->diameter();
+    return far && curve->closed && !encloses(*curve, plane, plane.point);
+}
+
+/// Leaves out the openings of branches that were removed after they had been planned: their planes
+/// would cut other vessels. \throw AlgorithmFailure if one of them is an inlet
+void leave_out_gone(const Surface& surface, OpeningPlan& plan) {
+    const auto gone = std::ranges::stable_partition(
+        plan.openings, [&](const PlannedOpening& opening) { return !is_gone(surface, opening); });
+    if (gone.begin() == plan.openings.begin()) return;  // the cut says what is wrong
+    for (const PlannedOpening& opening : gone) {
+        const Vec3& place = opening.place.plane.point;
+        if (opening.patch->kind == PatchKind::Inlet)
+            throw DiagnosedFailure({.code = "inlet-gone",
+                                    .operation = "clip-opening",
+                                    .place = place,
+                                    .words = {{"opening", opening.patch->name}},
+                                    .remedies = {{.arguments = {{"inlet", ""}}}}});
+        plan.warnings.push_back({.code = "opening-gone",
+                                 .operation = "clip-opening",
+                                 .place = place,
+                                 .words = {{"opening", opening.patch->name}}});
+    }
+    plan.openings.erase(gone.begin(), gone.end());
+}
+
 /// The plan resolved by an earlier run.
-OpeningPlan stored_plan(const Arguments& arguments) {
+OpeningPlan stored_plan(const Surface& surface, const Arguments& arguments) {
     OpeningPlan plan{.openings = openings_in(arguments.list("planes"))};
     const std::vector<Patch> patches = patches_in(arguments.text("names"));
     if (arguments.has("closings")) plan.closings = closings_in(arguments.list("closings"));
@@ -150,6 +186,7 @@ OpeningPlan stored_plan(const Arguments& arguments) {
             "kept cap, 2 for a rim capped as it is, 3 for another name only), and names as many "
             "entries kind:name");
     for (std::size_t i = 0; i < plan.openings.size(); ++i) plan.openings[i].patch = patches[i];
+    leave_out_gone(surface, plan);
     plan.ends = ends_of(plan);
     return plan;
 }
@@ -212,7 +249,7 @@ OpeningPlan planned_openings(const Scene& scene, const Arguments& arguments,
 
 Clipping repeat_openings(const Surface& surface, const Arguments& arguments,
                          const Progress& progress) {
-    Clipping made{.plan = stored_plan(arguments), .surface = {}, .options = {}};
+    Clipping made{.plan = stored_plan(surface, arguments), .surface = {}, .options = {}};
     const bool stubs =
         std::ranges::count(made.plan.closings, ClosingWay::RemoveStub, &PlannedClosing::way) > 0;
     const auto graph = stubs ? lines_for_openings(surface, std::nullopt, progress.part(0.0, 0.7))
