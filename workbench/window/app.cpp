@@ -69,6 +69,7 @@ struct App::Impl {
     }
 
     void take_case();
+    [[nodiscard]] ScreenRect view_below_banners(PanelContext& context, const Layout& layout);
     void draw_case(PanelContext& context, const Layout& layout);
 
     Workplace place;
@@ -77,7 +78,8 @@ struct App::Impl {
     Viewport viewport;
     Thumbnails thumbnails;
     FileDialog files;
-    int seen_opened = 0;  ///< Document::opened()
+    ScreenRect whole_view, view;  ///< of the last frame: with its banners, and without
+    int seen_opened = 0;          ///< Document::opened()
     std::string device;
     double display_scale = 1.0;
     bool moved = true;           ///< the last update changed something
@@ -114,13 +116,22 @@ void App::Impl::take_case() {
     shown.note.reset();
 }
 
+/// Below the banners. It stays where it is while something is dragged in it.
+ScreenRect App::Impl::view_below_banners(PanelContext& context, const Layout& layout) {
+    const ScreenRect below = draw_banner_strip(context, layout.view);
+    const bool same = std::exchange(whole_view, layout.view) == layout.view;
+    if (!same || !ImGui::IsAnyMouseDown()) view = below;
+    return view;
+}
+
 void App::Impl::draw_case(PanelContext& context, const Layout& layout) {
-    viewport.draw(context, layout.view);
+    const ScreenRect below = view_below_banners(context, layout);
+    viewport.draw(context, below);
     draw_rail(context, layout.rail);
     draw_operation_panel(context, layout.operation);
     draw_bottom_panel(context, layout.bottom);
-    draw_banners(context, layout.view);
-    draw_view_panel(context, layout.view);
+    draw_banners(context, below);
+    draw_view_panel(context, below);
 }
 
 void App::draw() {

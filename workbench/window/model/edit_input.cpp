@@ -53,7 +53,7 @@ std::string input_text(const EditInput& input, const std::string& operation) {
                                        std::to_string(*site.edit) + ", " + readable(operation)
                                  : "The model after " + step_text(site.step) + ", where " +
                                        readable(operation) + " is inserted";
-    if (input.has_later) text += ". Edits behind it are made again once it is applied";
+    if (input.has_later) text += ". Later edits are made again";
     if (input.has_pending) text += ". Pending edits before it are not in it yet: run them first";
     return text;
 }

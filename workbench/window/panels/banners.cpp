@@ -25,7 +25,15 @@ struct Banner {
     std::string text;
     std::string action = {};  ///< label of the button
     bool can_close = false;
+    bool is_next = false;  ///< the action is what most users want
 };
+
+/// What a banner's buttons take at its end.
+float width_of_buttons(const Ui& ui, const Banner& banner) {
+    const float action =
+        banner.action.empty() ? 0 : ImGui::CalcTextSize(banner.action.c_str()).x + ui.grid(4);
+    return action + (banner.can_close ? ImGui::GetFrameHeight() + ui.grid(1) : 0);
+}
 
 enum class Answer { None, Action, Close };
 
@@ -41,16 +49,14 @@ Answer draw_banner(PanelContext& c, const std::string& name, const Banner& banne
     ImGui::AlignTextToFramePadding();
     text(ui, banner.icon, banner.colour);
     ImGui::SameLine();
-    const float action =
-        banner.action.empty() ? 0 : ImGui::CalcTextSize(banner.action.c_str()).x + ui.grid(4);
-    const float close = banner.can_close ? ImGui::GetFrameHeight() + ui.grid(1) : 0;
-    const float end = rect.width - ui.grid(1) - action - close;
+    const float end = rect.width - ui.grid(1) - width_of_buttons(ui, banner);
     ImGui::PushTextWrapPos(end);
     text(ui, broken(banner.text, end - ImGui::GetCursorPosX()), ui.theme.text);
     ImGui::PopTextWrapPos();
     Answer answer = Answer::None;
     ImGui::SetCursorPos({end + ui.grid(1), ui.grid(1)});
-    if (action > 0 && button(c.ui, "banner." + name + ".action", banner.action))
+    if (!banner.action.empty() &&
+        button(c.ui, "banner." + name + ".action", banner.action, {.primary = banner.is_next}))
         answer = Answer::Action;
     ImGui::SetCursorPos({rect.width - ui.grid(1) - ImGui::GetFrameHeight(), ui.grid(1)});
     if (banner.can_close && icon_button(c.ui, "banner." + name + ".close", icons::kClose, "Close"))
@@ -61,10 +67,27 @@ Answer draw_banner(PanelContext& c, const std::string& name, const Banner& banne
 
 /// Tall enough for its text.
 float height_of(const Ui& ui, const Banner& banner, float width) {
-    const float room = width - ui.em * (banner.action.empty() ? 6 : 16);
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const float icon = ImGui::CalcTextSize(banner.icon).x + style.ItemSpacing.x;
+    const float room = width - 2 * ui.grid(1) - icon - width_of_buttons(ui, banner);
     const std::string lines = broken(banner.text, room);
     const float text = ImGui::CalcTextSize(lines.c_str(), nullptr, false, room).y;
-    return std::max(text + ui.em * 0.8F, ImGui::GetFrameHeight()) + ui.grid(2);
+    return text + 2 * style.FramePadding.y + 2 * ui.grid(1);
+}
+
+void take_off(ScreenRect& left, float height) {
+    left.y += height;
+    left.height = std::max(left.height - height, 1.0F);
+}
+
+/// \param left of the view: the banner takes its top
+Answer draw_top(PanelContext& c, const std::string& name, const Banner& banner, ScreenRect& left) {
+    ScreenRect place = left;
+    place.height = height_of(c.ui, banner, place.width);
+    c.ui.item("banner." + name, place);
+    const Answer answer = draw_banner(c, name, banner, place);
+    take_off(left, place.height);
+    return answer;
 }
 
 bool is_about_form(const PanelContext& c) {
@@ -82,49 +105,46 @@ void draw_failure(PanelContext& c, ScreenRect& place) {
     if (answer == Answer::Action) c.place.follow(failure);
 }
 
-void draw_pending(PanelContext& c, ScreenRect& place, int count) {
-    const Banner banner{icons::kPending, c.ui.theme.accent,
+void draw_pending(PanelContext& c, ScreenRect& left) {
+    const int count = pending_count(*c.place.document.snapshot(), c.place.document.variant());
+    if (count == 0) return;
+    const Banner banner{icons::kPending,
+                        c.ui.theme.accent,
                         counted(static_cast<std::size_t>(count), "edit") +
                             (count == 1 ? " is pending: the model shown is the one before it"
                                         : " are pending: the model shown is the one before them"),
-                        c.place.document.can(RequestKind::Edit) ? "Run" : ""};
-    place.height = height_of(c.ui, banner, place.width);
-    if (draw_banner(c, "pending", banner, place) == Answer::Action) c.place.document.run_pending();
+                        c.place.document.can(RequestKind::Edit) ? "Run" : "",
+                        false,
+                        true};
+    if (draw_top(c, "pending", banner, left) == Answer::Action) c.place.document.run_pending();
 }
 
-void draw_read_only(PanelContext& c, ScreenRect& place) {
+void draw_read_only(PanelContext& c, ScreenRect& left) {
     const Banner banner{icons::kWarning, c.ui.theme.warning,
                         c.place.document.snapshot()->read_only_reason,
                         c.place.document.can(RequestKind::Output) ? "Save a copy" : ""};
-    place.height = height_of(c.ui, banner, place.width);
-    c.ui.item("banner.read_only", place);
-    if (draw_banner(c, "read_only", banner, place) == Answer::Action)
+    if (draw_top(c, "read_only", banner, left) == Answer::Action)
         c.place.ask(FileQuestion::SaveCopy);
 }
 
 /// Which model is shown while the form of an edit is open that does not run on the newest one.
-void draw_input(PanelContext& c, ScreenRect& place, float gap) {
+void draw_input(PanelContext& c, ScreenRect& left) {
     const Document& document = c.place.document;
     const EditInput* input = document.stands_before();
     if (input == nullptr || !c.place.form()) return;
     const std::string model = input_text(*input, c.place.form()->operation().name);
     const Banner banner{icons::kHistory, c.ui.theme.accent,
                         document.is_reading() ? "Reading: " + model : model, "Newest model"};
-    place.height = height_of(c.ui, banner, place.width);
-    c.ui.item("banner.input", place);
-    if (draw_banner(c, "input", banner, place) == Answer::Action) c.place.leave_form();
-    place.y += place.height + gap;
+    if (draw_top(c, "input", banner, left) == Answer::Action) c.place.leave_form();
 }
 
-void draw_made_before(PanelContext& c, ScreenRect& place) {
+void draw_made_before(PanelContext& c, ScreenRect& left) {
     Document& document = c.place.document;
     const Banner banner{icons::kInformation, c.ui.theme.accent,
                         "This project was made from " + document.made_before()->name() +
                             " before; it is opened as you left it",
                         "Begin anew", true};
-    place.height = height_of(c.ui, banner, place.width);
-    c.ui.item("banner.made_before", place);
-    const Answer answer = draw_banner(c, "made_before", banner, place);
+    const Answer answer = draw_top(c, "made_before", banner, left);
     if (answer == Answer::Action) return document.begin_anew();
     if (answer == Answer::Close) document.keep_made_before();
 }
@@ -137,7 +157,7 @@ const LogEntry* stale_edit(const PanelContext& c) {
     return open ? nullptr : stale;
 }
 
-void draw_stale(PanelContext& c, ScreenRect& place, float gap) {
+void draw_stale(PanelContext& c, ScreenRect& left) {
     const LogEntry* stale = stale_edit(c);
     if (stale == nullptr) return;
     const EditId edit = stale->edit.edit.id;
@@ -145,9 +165,7 @@ void draw_stale(PanelContext& c, ScreenRect& place, float gap) {
         icons::kStale, c.ui.theme.danger,
         readable(stale->edit.operation) + " no longer applies and was skipped: " + stale->reason,
         "Change it"};
-    place.height = height_of(c.ui, banner, place.width);
-    if (draw_banner(c, "stale", banner, place) == Answer::Action) c.place.choose_edit(edit);
-    place.y += place.height + gap;
+    if (draw_top(c, "stale", banner, left) == Answer::Action) c.place.choose_edit(edit);
 }
 
 void draw_preview(PanelContext& c, ScreenRect& place) {
@@ -227,6 +245,21 @@ ScreenRect beside_spots(const Ui& ui, const ScreenRect& view, float gap) {
 
 }  // namespace
 
+ScreenRect draw_banner_strip(PanelContext& c, const ScreenRect& view) {
+    const Document& document = c.place.document;
+    ScreenRect left = view;
+    if (!document.is_open()) return left;
+    if (!document.snapshot()->read_only_reason.empty())
+        draw_read_only(c, left);
+    else if (c.place.unit_question())
+        take_off(left, draw_unit_banner(c, left));
+    if (document.made_before()) draw_made_before(c, left);
+    draw_input(c, left);
+    draw_stale(c, left);
+    draw_pending(c, left);
+    return left;
+}
+
 void draw_banners(PanelContext& c, const ScreenRect& view) {
     const Document& document = c.place.document;
     if (!document.is_open()) return;
@@ -238,27 +271,9 @@ void draw_banners(PanelContext& c, const ScreenRect& view) {
         draw_failure(c, place);
         place.y += place.height + gap;
     }
-    if (!document.snapshot()->read_only_reason.empty()) {
-        draw_read_only(c, place);
-        place.y += place.height + gap;
-    } else if (c.place.unit_question()) {
-        place.height = draw_unit_banner(c, place);
-        place.y += place.height + gap;
-    }
-    if (document.made_before()) {
-        draw_made_before(c, place);
-        place.y += place.height + gap;
-    }
     if (c.place.comparison()) {
         place.height = comparison_banner_height(c.ui);
         draw_comparison_banner(c, place);
-        place.y += place.height + gap;
-    }
-    draw_input(c, place, gap);
-    draw_stale(c, place, gap);
-    const int pending = pending_count(*document.snapshot(), document.variant());
-    if (pending > 0) {
-        draw_pending(c, place, pending);
         place.y += place.height + gap;
     }
     if (c.place.gallery().mode() == GalleryMode::Models) return;  // what they say is not seen

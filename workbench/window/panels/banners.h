@@ -4,7 +4,12 @@
 
 namespace vesselbench {
 
-/// Failures with their remedies, previews and pending edits, over the view.
+/// What stays for a while takes the top of the view: which model is shown, pending edits and those
+/// that no longer apply, questions about the project.
+/// \return what is left of the view
+[[nodiscard]] ScreenRect draw_banner_strip(PanelContext& context, const ScreenRect& view);
+
+/// Failures with their remedies, comparisons and previews, over the view.
 void draw_banners(PanelContext& context, const ScreenRect& view);
 
 }  // namespace vesselbench

@@ -15,6 +15,8 @@ struct ScreenRect {
     [[nodiscard]] float middle_x() const { return x + width / 2; }
 
     [[nodiscard]] float middle_y() const { return y + height / 2; }
+
+    bool operator==(const ScreenRect&) const = default;
 };
 
 /// Something that can be clicked, as of the last frame.
