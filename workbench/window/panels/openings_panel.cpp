@@ -17,7 +17,7 @@ namespace vesselbench {
 namespace {
 
 constexpr float kFateWidth = 5.0F;   ///< of the button that says what becomes of an end [em]
-constexpr float kMostHeight = 0.5F;  ///< of the table, as a share of what is left [-]
+constexpr float kMostHeight = 0.8F;  ///< of the table, as a share of what is left [-]
 
 void fill(PanelContext& c, const std::vector<FieldText>& texts) {
     c.place.fill_form(texts);

@@ -99,7 +99,7 @@ void draw_edit(PanelContext& c, const RailEdit& edit) {
              .right = edit.revision > 1 ? "rev. " + std::to_string(edit.revision) : "",
              .selected = (form && form->edit() == edit.id) || c.place.pointed_edit() == edit.id,
              .indent = c.ui.em * 1.9F,
-             .help = help_of(edit)}))
+             .help = form && form->edit() == edit.id ? "" : help_of(edit)}))
         c.place.choose_edit(edit.id);
     if (ImGui::IsItemHovered()) c.place.point_at_edit(edit.id);
 }

@@ -1,6 +1,7 @@
 #include "workbench/window/view/end_markers.h"
 
 #include <algorithm>
+#include <ranges>
 #include <string>
 #include <vector>
 
@@ -33,9 +34,12 @@ bool is_active(const PanelContext& c) {
            c.place.armed().empty() && c.place.view.tool == MeasureTool::None;
 }
 
+/// Above the end, or below it where the view ends.
 std::optional<ViewPixel> marker_place(const Ui& ui, const PixelView& screen, const EndRow& row) {
     auto at = screen.place(row.place);
-    if (at) at->y() -= kAbove * ui.em;
+    if (!at) return at;
+    const double above = at->y() - kAbove * ui.em;
+    at->y() = above - kBadge * ui.em < screen.top ? at->y() + kAbove * ui.em : above;
     return at;
 }
 
@@ -150,7 +154,11 @@ bool EndMarkers::update(PanelContext& c, const PixelView& screen, bool over, boo
 void EndMarkers::draw(PanelContext& c, const PixelView& screen) const {
     const OpeningsModel& openings = c.place.openings();
     for (const EndRow& row : openings.rows()) draw_disc(c.ui, screen, row, is_lit(openings, row));
-    for (const EndRow& row : openings.rows()) draw_marker(c, screen, row);
+    // The rows begin with the ends in doubt: their markers, and lit ones, are over the others.
+    for (const EndRow& row : openings.rows() | std::views::reverse)
+        if (!is_lit(openings, row)) draw_marker(c, screen, row);
+    for (const EndRow& row : openings.rows())
+        if (is_lit(openings, row)) draw_marker(c, screen, row);
     const EndRow* hot = hot_ ? openings.row(*hot_) : nullptr;
     if (hot == nullptr) return;
     ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);

@@ -12,7 +12,9 @@ namespace vesselbench {
 
 namespace {
 
-constexpr double kBarShare = 0.22;  ///< of the view's width that the bar may take
+constexpr double kBarShare = 0.22;      ///< of the view's width that the bar may take
+constexpr float kOrientation = 2.3F;    ///< from its middle to its letters [em]
+constexpr float kLetterRadius = 0.62F;  ///< [em]
 
 ImDrawList& draw_list() {
     return *ImGui::GetWindowDrawList();
@@ -50,7 +52,7 @@ struct PlacedEnd {
 };
 
 bool draw_end(Ui& ui, const PlacedEnd& placed, ImVec2 middle) {
-    const float radius = ui.em * 0.62F;
+    const float radius = ui.em * kLetterRadius;
     const bool front = placed.depth >= 0;
     const Paint colour = faded(placed.end->colour, front ? 1.0 : 0.55);
     if (front) draw_list().AddLine(middle, placed.place, colour, ui.em / 8);
@@ -89,9 +91,13 @@ void draw_scale_bar(const Ui& ui, const ScreenRect& view, const ViewCamera& came
     centred_text(ui.fonts.small, {right - wide / 2, low - ui.em * 0.75F}, colour, length.text);
 }
 
+float orientation_top(const Ui& ui, const ScreenRect& view) {
+    return view.y + view.height - ui.em * (2 * kOrientation + kLetterRadius) - ui.grid(3);
+}
+
 std::optional<StandardView> draw_orientation(Ui& ui, const ScreenRect& view,
                                              const ViewCamera& camera) {
-    const float reach = ui.em * 2.3F;
+    const float reach = ui.em * kOrientation;
     const ImVec2 middle{view.x + reach + ui.grid(3), view.y + view.height - reach - ui.grid(3)};
     const Eigen::Matrix3d eye = to_eye(camera);
     std::array<PlacedEnd, 6> placed;

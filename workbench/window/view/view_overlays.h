@@ -26,6 +26,9 @@ void draw_scale_bar(const Ui& ui, const ScreenRect& view, const ViewCamera& came
 [[nodiscard]] std::optional<StandardView> draw_orientation(Ui& ui, const ScreenRect& view,
                                                            const ViewCamera& camera);
 
+/// The upper end of the axes' letters [pixels].
+[[nodiscard]] float orientation_top(const Ui& ui, const ScreenRect& view);
+
 /// The meaning of a colour map.
 struct ColourLegend {
     ColourMap map = ColourMap::Ordered;

@@ -140,6 +140,8 @@ void ViewPlaces::take_click(PanelContext& c) {
 }
 
 void ViewPlaces::draw_offered(const PanelContext& c, const PixelView& screen) const {
+    // The markers of all ends say more.
+    if (!c.place.openings().rows().empty() && !c.place.armed_target()) return;
     for (const NamedPlace& place : offered_in(*c.place.form(), c.place.surface_places()))
         if (const auto at = screen.place(place.point)) draw_mark(c.ui, *at, MarkLook::Offered, "");
     for (const NamedPlace& place : places_in(*c.place.form()))
