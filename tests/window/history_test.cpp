@@ -70,6 +70,10 @@ SCENARIO("An earlier edit's change leaves later ones pending until they are run"
     REQUIRE(wait_until_idle(*shell));
     REQUIRE(log_of(*shell)[1].edit.edit.revision == 2);
     CHECK(log_of(*shell)[2].status == EditStatus::Pending);
+    REQUIRE(shell->has("banner.pending"));
+    const auto& items = shell->app().ui().items();
+    const ScreenRect banner = items.at("banner.pending").rect, view = items.at("view.area").rect;
+    CHECK(banner.y + banner.height <= view.y);
     REQUIRE(shell->click_item("banner.pending.action"));
     REQUIRE(wait_until_idle(*shell));
     CHECK(log_of(*shell)[2].status == EditStatus::Done);

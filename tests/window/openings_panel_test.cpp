@@ -350,6 +350,13 @@ SCENARIO("Rows and markers of ends are clicked", "[window][openings]") {
     const auto wish = [&](int number) { return place.openings().row(number)->wish; };
     REQUIRE(place.openings().rows().size() == 3);
     REQUIRE(wish(2) == EndWish::Outlet);
+    for (const int number : {1, 2, 3}) {
+        const auto& items = shell->app().ui().items();
+        const ScreenRect marker = items.at("view.end." + std::to_string(number)).rect;
+        const ScreenRect view = items.at("view.area").rect;
+        CHECK(marker.y >= view.y);
+        CHECK(marker.y + marker.height <= view.y + view.height);
+    }
     WHEN("the button of a row is clicked") {
         REQUIRE(shell->click_item("end.2.fate"));
         REQUIRE(shell->settle(60s));

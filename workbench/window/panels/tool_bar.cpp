@@ -89,24 +89,29 @@ std::vector<std::string> variants_of(const Document& document) {
 }
 
 std::string variant_help() {
-    std::string help = "Steps 4 to 8 belong to a variant:";
+    std::string help = "Steps 4 to 8 belong to a variant, the others to all:";
     for (const Purpose& purpose : purposes()) help += "\n" + purpose.name + ": " + purpose.title;
     return help;
 }
 
-constexpr float kVariant = 7.5F;  ///< [em]
+/// The model that a variant is, as *Prepare* names it; a variant of the user's by its own name.
+std::string label_of(const std::string& variant) {
+    const auto purpose = std::ranges::find(purposes(), variant, &Purpose::name);
+    return purpose == purposes().end() ? variant : purpose->title;
+}
+
+constexpr float kVariant = 16.0F;  ///< [em]
 
 void draw_variant(PanelContext& c) {
-    const Ui& ui = c.ui;
-    if (!c.shown.compact) {
-        ImGui::AlignTextToFramePadding();
-        text(ui, "Variant", ui.theme.muted);
-        ImGui::SameLine();
+    const std::vector<std::string> variants = variants_of(c.place.document);
+    std::vector<std::string> labels;
+    for (const std::string& variant : variants) labels.push_back(label_of(variant));
+    std::string chosen = label_of(c.place.document.variant());
+    if (choice(c.ui, "tool.variant", labels, chosen, c.ui.em * kVariant)) {
+        const auto index = std::ranges::find(labels, chosen) - labels.begin();
+        c.place.document.show_variant(variants[static_cast<std::size_t>(index)]);
     }
-    std::string variant = c.place.document.variant();
-    if (choice(c.ui, "tool.variant", variants_of(c.place.document), variant, ui.em * kVariant))
-        c.place.document.show_variant(variant);
-    help_on_hover(ui, variant_help());
+    help_on_hover(c.ui, variant_help());
 }
 
 void switch_theme(PanelContext& c) {
@@ -146,8 +151,7 @@ void draw_right_end(PanelContext& c, const ScreenRect& rect) {
     const Ui& ui = c.ui;
     const float frame = ImGui::GetFrameHeight(), gap = ImGui::GetStyle().ItemSpacing.x;
     const bool open = c.place.document.is_open();
-    const float word = c.shown.compact ? 0 : ImGui::CalcTextSize("Variant").x + gap;
-    const float variant = open ? ui.em * kVariant + gap * 2 + word : 0;
+    const float variant = open ? ui.em * kVariant + gap * 2 : 0;
     ImGui::SameLine(rect.width - ui.grid(1) - 3 * frame - 2 * gap - variant);
     if (open) {
         draw_variant(c);
