@@ -139,7 +139,7 @@ SCENARIO("A stroke stays in view although edits behind it become pending", "[win
     Document document(options());
     document.open({.path = tube_file()});
     REQUIRE(wait_for_rest(document));
-    document.apply("extrude-opening", {}, Step::Openings);
+    document.apply("clip-opening", {}, Step::Openings);
     REQUIRE(wait_for_rest(document));
     document.apply("tetrahedralize", {}, Step::Product);
     REQUIRE(wait_for_rest(document));

@@ -73,10 +73,10 @@ Surface wavy_sheet(int cells) {
     return make_surface(std::move(points), std::move(triangles));
 }
 
-/// The options of prepare that an error names: "(with prepare: --resume --set a.b=c)".
+/// The options of prepare that an error names: "`--resume --set a.b=c` goes on".
 std::vector<std::string> options_in(const std::string& error) {
     std::smatch found;
-    REQUIRE(std::regex_search(error, found, std::regex("\\(with prepare: ([^)]+)\\)")));
+    REQUIRE(std::regex_search(error, found, std::regex("`(--resume [^`]+)`")));
     std::istringstream words(found[1]);
     return {std::istream_iterator<std::string>(words), {}};
 }
@@ -178,7 +178,7 @@ SCENARIO("What has no vessel in it is refused", "[workbench][prepare]") {
             AND_THEN("a print shows it as it is") {
                 const ProgramRun print = prepared(name, "rp");
                 CHECK(print.exit_code == 0);
-                CHECK_THAT(print.err, Contains("clip-opening was skipped: there is no vessel"));
+                CHECK_THAT(print.err, Contains("clip-opening: the step was skipped: there is no vessel"));
             }
         }
     }
@@ -227,7 +227,7 @@ SCENARIO("A vessel that an edit loses ends prepare with an error", "[workbench][
     CHECK(result.exit_code == 1);
     CHECK_THAT(result.err, Contains("the model has lost vessels:") && Contains("diameter 2.") &&
                                Contains("lost by edit 4, remesh:"));
-    CHECK(names_in(folder + "/out") == Names{"project.vbench"});
+    CHECK(names_in(folder + "/out") == Names{"project.vbench", "report.json"});
     THEN("before a volume mesh is made of it") {
         const Json log = Json::parse(run({"log", folder + "/out/project.vbench", "--json"}).out);
         CHECK(log["edits"].back()["operation"] == "remesh");

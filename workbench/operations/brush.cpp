@@ -219,15 +219,16 @@ std::unique_ptr<Stepper> live_weight(const Scene& scene, const CheckedArguments&
 
 /// Common part of all brushes.
 Operation brush(const DabUse& use, const std::string& summary, const std::string& strength) {
-    return {
-        .name = use.operation,
-        .usual_step = Step::LocalRepair,
-        .allowed = {Step::Source, Step::Branches, Step::LocalRepair, Step::Openings,
-                    Step::Smoothing, Step::Deformation, Step::Remeshing},
-        .summary = summary,
-        .parameters = dab_parameters(use.weakest, strength),
-        .thesis = "4.2.3-4.2.4",
-        .example = {.placed = {"at"}, .given = {{"radius", 0.5}}, .changed = {{"strength", 0.4}}}};
+    return {.name = use.operation,
+            .usual_step = Step::LocalRepair,
+            .allowed = {Step::Source, Step::Branches, Step::LocalRepair, Step::Openings,
+                        Step::Smoothing, Step::Deformation, Step::Remeshing},
+            .summary = summary,
+            .parameters = dab_parameters(use.weakest, strength),
+            .thesis = "4.2.3-4.2.4",
+            .example = {.placed = {"at"},
+                        .given = {{"radius", 0.5}, {"strength", 0.5}},
+                        .changed = {{"strength", 0.4}}}};
 }
 
 }  // namespace

@@ -171,6 +171,7 @@ Arguments decided_smoothing(const Scene& scene, const CheckedArguments& argument
     Arguments decided = arguments;
     resolve_filter(scene, decided);
     decide_context(scene, *make_cpu_finder(surface_of(scene)), decided);
+    decided.remove("device");  // a run finds out whether there is one
     return decided;
 }
 
