@@ -178,7 +178,8 @@ SCENARIO("What has no vessel in it is refused", "[workbench][prepare]") {
             AND_THEN("a print shows it as it is") {
                 const ProgramRun print = prepared(name, "rp");
                 CHECK(print.exit_code == 0);
-                CHECK_THAT(print.err, Contains("clip-opening: the step was skipped: there is no vessel"));
+                CHECK_THAT(print.err,
+                           Contains("clip-opening: the step was skipped: there is no vessel"));
             }
         }
     }

@@ -91,7 +91,7 @@ std::vector<Parameter> choice_parameters() {
              .default_value = false,
              .help = "cut every end perpendicular to its vessel, also one with a flat rim; fails "
                      "at the first end that cannot be cut",
-              .use = Use::Rare},
+             .use = Use::Rare},
             {.name = "check",
              .type = Choice,
              .default_value = "flow",
