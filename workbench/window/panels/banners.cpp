@@ -1,6 +1,7 @@
 #include "workbench/window/panels/banners.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <imgui.h>
 
@@ -75,9 +76,11 @@ float height_of(const Ui& ui, const Banner& banner, float width) {
     return text + 2 * style.FramePadding.y + 2 * ui.grid(1);
 }
 
+/// In whole pixels: the view's framebuffer has no others.
 void take_off(ScreenRect& left, float height) {
-    left.y += height;
-    left.height = std::max(left.height - height, 1.0F);
+    const float taken = std::ceil(left.y + height) - left.y;
+    left.y += taken;
+    left.height = std::max(left.height - taken, 1.0F);
 }
 
 /// \param left of the view: the banner takes its top

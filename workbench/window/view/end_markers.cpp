@@ -155,7 +155,7 @@ void EndMarkers::draw(PanelContext& c, const PixelView& screen) const {
     const OpeningsModel& openings = c.place.openings();
     for (const EndRow& row : openings.rows()) draw_disc(c.ui, screen, row, is_lit(openings, row));
     // The rows begin with the ends in doubt: their markers, and lit ones, are over the others.
-    for (const EndRow& row : openings.rows() | std::views::reverse)
+    for (const EndRow& row : std::views::reverse(openings.rows()))
         if (!is_lit(openings, row)) draw_marker(c, screen, row);
     for (const EndRow& row : openings.rows())
         if (is_lit(openings, row)) draw_marker(c, screen, row);
