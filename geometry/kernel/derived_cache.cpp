@@ -174,7 +174,9 @@ void DerivedCache::clear() {
 }
 
 DerivedCache& derived_cache() {
-    static DerivedCache& cache = *new DerivedCache;  // outlives users during program exit
+    // It outlives users during program exit.
+    // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables)
+    static DerivedCache& cache = *new DerivedCache;
     return cache;
 }
 

@@ -7,7 +7,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
-#include <ranges>
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -168,7 +167,7 @@ void PendingFiles::commit(Existing existing) {
     for (const Names* names : {&files_, &marks_})
         for (const auto& [temporary, own] : *names) flush_to_disk(temporary, own);
     if (existing == Existing::Replace && !marks_.empty()) {
-        for (const auto& [temporary, own] : marks_ | std::views::reverse) remove_file(own);
+        for (auto mark = marks_.rbegin(); mark != marks_.rend(); ++mark) remove_file(mark->second);
         flush_parents();
     }
     for (Names* names : {&files_, &marks_}) {

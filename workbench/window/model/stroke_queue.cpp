@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <ranges>
 #include <utility>
 
 #include "geometry/kernel/errors.h"
@@ -80,8 +79,8 @@ const LiveStroke* StrokeQueue::entering() const {
 }
 
 const Scene* StrokeQueue::scene() const {
-    for (const auto& stroke : std::views::reverse(strokes_))
-        if (stroke->scene() != nullptr) return stroke->scene();
+    for (auto stroke = strokes_.rbegin(); stroke != strokes_.rend(); ++stroke)
+        if ((*stroke)->scene() != nullptr) return (*stroke)->scene();
     return nullptr;
 }
 

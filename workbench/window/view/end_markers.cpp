@@ -1,7 +1,6 @@
 #include "workbench/window/view/end_markers.h"
 
 #include <algorithm>
-#include <ranges>
 #include <string>
 #include <vector>
 
@@ -155,8 +154,8 @@ void EndMarkers::draw(PanelContext& c, const PixelView& screen) const {
     const OpeningsModel& openings = c.place.openings();
     for (const EndRow& row : openings.rows()) draw_disc(c.ui, screen, row, is_lit(openings, row));
     // The rows begin with the ends in doubt: their markers, and lit ones, are over the others.
-    for (const EndRow& row : std::views::reverse(openings.rows()))
-        if (!is_lit(openings, row)) draw_marker(c, screen, row);
+    for (auto row = openings.rows().rbegin(); row != openings.rows().rend(); ++row)
+        if (!is_lit(openings, *row)) draw_marker(c, screen, *row);
     for (const EndRow& row : openings.rows())
         if (is_lit(openings, row)) draw_marker(c, screen, row);
     const EndRow* hot = hot_ ? openings.row(*hot_) : nullptr;
