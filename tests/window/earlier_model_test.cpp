@@ -16,6 +16,7 @@
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
 #include "tests/window/window_support.h"
+#include "tests/window/workplace_updates.h"
 #include "workbench/window/model/workplace.h"
 
 using namespace vesselbench;
@@ -47,14 +48,7 @@ struct Desk {
         settle();
     }
 
-    bool run_until(const std::function<bool()>& done) {
-        for (const auto end = std::chrono::steady_clock::now() + 120s;
-             std::chrono::steady_clock::now() < end; std::this_thread::sleep_for(2ms)) {
-            place.update();
-            if (done()) return true;
-        }
-        return false;
-    }
+    bool run_until(const std::function<bool()>& done) { return update_until(place, done); }
 
     void settle() {
         REQUIRE(run_until([&] { return !document.busy() && !place.searches_places(); }));

@@ -23,15 +23,19 @@ Image three_labels() {
     });
 }
 
+void open_remesh(OffscreenShell& shell) {
+    open_and_wait(shell, tube_file());
+    REQUIRE(shell.click_item("rail.remeshing"));
+    REQUIRE(shell.click_item("choose.remesh"));
+    REQUIRE(shell.settle(60s));
+}
+
 }  // namespace
 
 SCENARIO("A field shows the value that is automatic", "[window][form]") {
     const auto shell = test_shell();
     if (!shell) return;
-    open_and_wait(*shell, tube_file());
-    REQUIRE(shell->click_item("rail.remeshing"));
-    REQUIRE(shell->click_item("choose.remesh"));
-    REQUIRE(shell->settle(60s));
+    open_remesh(*shell);
     const OperationForm& form = *shell->app().place().form();
     REQUIRE(form.field("edge").automatic);
     const double edge = std::get<double>(*form.field("edge").automatic);
@@ -60,10 +64,7 @@ SCENARIO("A field shows the value that is automatic", "[window][form]") {
 SCENARIO("Fields that are seldom needed are folded away", "[window][form]") {
     const auto shell = test_shell();
     if (!shell) return;
-    open_and_wait(*shell, tube_file());
-    REQUIRE(shell->click_item("rail.remeshing"));
-    REQUIRE(shell->click_item("choose.remesh"));
-    REQUIRE(shell->settle(60s));
+    open_remesh(*shell);
     CHECK(shell->has("field.edge"));
     CHECK_FALSE(shell->has("field.gradation"));
     WHEN("they are unfolded") {

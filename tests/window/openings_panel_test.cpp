@@ -5,7 +5,6 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
-#include <thread>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -19,6 +18,7 @@
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
 #include "tests/window/window_support.h"
+#include "tests/window/workplace_updates.h"
 #include "workbench/phantoms/phantom_json.h"
 #include "workbench/window/keys.h"
 #include "workbench/window/model/cut_handles.h"
@@ -66,12 +66,7 @@ struct Openings {
     }
 
     [[nodiscard]] bool until(const std::function<bool()>& done) {
-        for (const auto end = std::chrono::steady_clock::now() + 120s;
-             std::chrono::steady_clock::now() < end; std::this_thread::sleep_for(2ms)) {
-            place.update();
-            if (done()) return true;
-        }
-        return false;
+        return update_until(place, done);
     }
 
     void settle() {
