@@ -277,6 +277,12 @@ SCENARIO("A stub without a whole section is removed", "[geometry][openings]") {
     CHECK(made.failed.empty());
     CHECK(is_closed_manifold(made.surface));
     for (const Vec3& p : made.surface.points()) CHECK(p.x() < 2.4);
+    THEN("the plan of a stub that is gone removes no other branch") {
+        const OpeningPlan elsewhere{
+            .closings = {{plan.closings[0].place + Vec3(9, 0, 0), ClosingWay::RemoveStub}}};
+        const Surface kept = clip_openings(with_stub, elsewhere, {}, graph.get()).surface;
+        CHECK(kept.triangle_count() == with_stub.triangle_count());
+    }
 }
 
 SCENARIO("A vessel that ends in its furcation is cut across it", "[geometry][openings]") {

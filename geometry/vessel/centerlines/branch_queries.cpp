@@ -222,6 +222,14 @@ std::optional<std::size_t> nearest_tip(const CenterlineGraph& graph, const Vec3&
     return best;
 }
 
+std::optional<std::size_t> tip_near(const CenterlineGraph& graph, const Vec3& position,
+                                    double reach) {
+    const auto tip = nearest_tip(graph, position);
+    if (!tip) return std::nullopt;
+    const double distance = (graph.nodes[*tip].position - position).norm();
+    return distance <= reach * tip_radius(graph, *tip) ? tip : std::nullopt;
+}
+
 std::size_t other_node(const CenterlineGraph& graph, std::size_t branch, std::size_t node) {
     return starts_at(graph, branch, node) ? graph.branches[branch].end_node
                                           : graph.branches[branch].start_node;

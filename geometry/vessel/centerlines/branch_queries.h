@@ -58,6 +58,11 @@ struct NearestPlace {
 /// \throw InvalidInput if the node is not a tip
 [[nodiscard]] double tip_radius(const CenterlineGraph& graph, std::size_t tip);
 
+/// The tip that a point means: the nearest one, if it is near; else none.
+/// \param reach largest distance from the point [radii of the tip, tip_radius]
+[[nodiscard]] std::optional<std::size_t> tip_near(const CenterlineGraph& graph,
+                                                  const Vec3& position, double reach);
+
 /// The branch that ends at a tip. \throw InvalidInput if the node is not a tip
 [[nodiscard]] std::size_t branch_of_tip(const CenterlineGraph& graph, std::size_t tip);
 

@@ -8,10 +8,7 @@ namespace vesselbench {
 std::shared_ptr<const CenterlineGraph> lines_to_tip(const Surface& surface, const Vec3& point,
                                                     double reach, const Progress& progress) {
     auto lines = centerlines_of(surface, {}, progress.part(0.0, 0.7));
-    const auto nearest = nearest_tip(*lines, point);
-    if (nearest &&
-        (lines->nodes[*nearest].position - point).norm() <= reach * tip_radius(*lines, *nearest))
-        return lines;
+    if (tip_near(*lines, point, reach)) return lines;
     return centerlines_of(surface, {.ends = {point}}, progress.part(0.7, 1.0));
 }
 

@@ -45,9 +45,8 @@ Surface chosen_part(const Surface& surface, const std::vector<std::uint8_t>& cho
 
 NamedBranch branch_at_tip(const Surface& surface, const Vec3& point, const Progress& progress) {
     auto graph = lines_to_tip(surface, point, kOwnLineBeyond, progress);
-    const auto tip = nearest_tip(*graph, point);
-    if (!tip || (graph->nodes[*tip].position - point).norm() > kTipReach * tip_radius(*graph, *tip))
-        throw AlgorithmFailure("no branch has its tip near " + place_text(point));
+    const auto tip = tip_near(*graph, point, kTipReach);
+    if (!tip) throw AlgorithmFailure("no branch has its tip near " + place_text(point));
     return {std::move(graph), *tip};
 }
 
