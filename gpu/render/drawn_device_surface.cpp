@@ -42,9 +42,10 @@ void DrawnDeviceSurface::bind_vertices() const {
         glDisableVertexAttribArray(3);
 }
 
-void DrawnDeviceSurface::bind_triangles() const {
+std::size_t DrawnDeviceSurface::bind_triangles(Detail) const {
     bind_vertices();
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, surface_->triangles().buffer.id());
+    return triangle_count();
 }
 
 std::size_t DrawnDeviceSurface::bind_edges() const {

@@ -41,7 +41,7 @@ public:
 
     [[nodiscard]] bool has_corners() const override { return false; }
 
-    void bind_triangles() const override;
+    std::size_t bind_triangles(Detail detail) const override;
     std::size_t bind_edges() const override;
 
 private:

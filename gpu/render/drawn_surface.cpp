@@ -6,10 +6,14 @@
 #include <epoxy/gl.h>
 
 #include "geometry/kernel/errors.h"
+#include "gpu/render/coarse_triangles.h"
 
 namespace vesselbench {
 
 namespace {
+
+/// A surface of fewer triangles is drawn fast enough as it is.
+constexpr std::size_t kFewTriangles = 60000;
 
 /// A colour in 4 bytes, in the steps of pictures.
 using ColourBytes = std::array<std::uint8_t, 4>;
@@ -115,9 +119,15 @@ void DrawnSurface::set_colours(std::span<const Colour> colours) {
     describe();
 }
 
-void DrawnSurface::bind_triangles() const {
+std::size_t DrawnSurface::bind_triangles(Detail detail) const {
+    const bool coarse = detail == Detail::Coarse && triangle_count() > kFewTriangles;
+    if (coarse && !coarse_) {
+        const std::vector<Triangle> triangles = coarse_triangles(*arrays_.layout);
+        coarse_ = {make_buffer(bytes_of(triangles), "coarse triangles"), triangles.size()};
+    }
     glBindVertexArray(layout_.id());
-    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, triangles_.id());
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, coarse ? coarse_->buffer.id() : triangles_.id());
+    return coarse ? coarse_->count : triangle_count();
 }
 
 std::size_t DrawnSurface::bind_edges() const {

@@ -59,7 +59,8 @@ public:
 
     [[nodiscard]] bool has_corners() const override { return true; }
 
-    void bind_triangles() const override;
+    /// \throw GpuUnavailable if the device has no memory for the coarse ones, made on first use
+    std::size_t bind_triangles(Detail detail) const override;
     std::size_t bind_edges() const override;
 
 private:
@@ -67,6 +68,14 @@ private:
 
     DrawingArrays arrays_;
     Buffer vertices_, triangles_;
+
+    /// Made on first use.
+    struct CoarseTriangles {
+        Buffer buffer;
+        std::size_t count = 0;
+    };
+
+    mutable std::optional<CoarseTriangles> coarse_;
     std::vector<float> value_list_;  ///< of the drawn vertices
     std::optional<Buffer> values_, colours_;
     mutable DrawnEdges edges_;

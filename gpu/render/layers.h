@@ -27,6 +27,8 @@ struct SurfaceLayer {
     std::shared_ptr<const SurfaceSource> source;
     std::uint32_t id = 0;  ///< what picking names; 0: it cannot be picked
 
+    Detail detail = Detail::Full;  ///< Coarse: for layers without edges
+
     Colouring colouring = Colouring::Base;
     Colour base = kWallColour;
     std::vector<Colour> patch_colours;  ///< by label, of at most 1024 labels; missing ones: base

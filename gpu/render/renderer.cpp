@@ -131,10 +131,9 @@ std::vector<Eigen::Vector4f> padded(const std::vector<Colour>& colours, std::siz
     return all;
 }
 
-void draw_triangles(const SurfaceSource& source) {
-    source.bind_triangles();
-    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * source.triangle_count()), GL_UNSIGNED_INT,
-                   nullptr);
+void draw_triangles(const SurfaceLayer& layer) {
+    const std::size_t count = layer.source->bind_triangles(layer.detail);
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * count), GL_UNSIGNED_INT, nullptr);
 }
 
 void draw_strips(std::size_t instances) {
@@ -226,7 +225,7 @@ struct Renderer::Impl {
     void draw_surface(const Frame& frame, const SurfaceLayer& layer) {
         use_surface(frame, layer);
         enable(GL_CULL_FACE, hides_inner_side(frame, layer));
-        draw_triangles(*layer.source);
+        draw_triangles(layer);
         glDisable(GL_CULL_FACE);
         if (layer.edges == Edges::Over) draw_edge_lines(frame, layer);
     }
@@ -249,7 +248,7 @@ struct Renderer::Impl {
         if (!layer.source->has_corners()) return draw_edge_lines(frame, layer);
         use_surface(frame, layer);
         glEnable(GL_BLEND);
-        draw_triangles(*layer.source);
+        draw_triangles(layer);
     }
 
     /// Back faces, then front faces.
@@ -259,7 +258,7 @@ struct Renderer::Impl {
         glEnable(GL_CULL_FACE);
         for (const unsigned culled : {GL_FRONT, GL_BACK}) {
             glCullFace(culled);
-            draw_triangles(*layer.source);
+            draw_triangles(layer);
         }
         glDisable(GL_CULL_FACE);
         if (layer.edges == Edges::Over) draw_edge_lines(frame, layer);
@@ -306,7 +305,7 @@ struct Renderer::Impl {
         glDepthMask(GL_FALSE);
         glDisable(GL_DEPTH_TEST);
         glEnable(GL_DEPTH_CLAMP);  // faces before the near plane count
-        draw_triangles(*layer.source);
+        draw_triangles(layer);
         glDisable(GL_DEPTH_CLAMP);
         glEnable(GL_DEPTH_TEST);
         glDepthMask(GL_TRUE);
@@ -403,7 +402,7 @@ struct Renderer::Impl {
     void draw_surface_ids(const Frame& frame, const SurfaceLayer& layer) {
         const Uniforms uniforms = use_ids("surface", layer.id, PickKind::Surface);
         set_frame(uniforms, frame, {layer.source->bounds().centre, layer.pull, layer.clipped});
-        draw_triangles(*layer.source);
+        draw_triangles(layer);
     }
 
     void draw_slice_ids(const Frame& frame, const SliceLayer& layer) {

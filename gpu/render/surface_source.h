@@ -4,6 +4,12 @@
 
 namespace vesselbench {
 
+/// How much of a surface is drawn.
+enum class Detail {
+    Full,
+    Coarse  ///< fewer triangles, if the surface is large (coarse_triangles.h)
+};
+
 /// A surface in buffers of the current context that a SurfaceLayer shows. Implementations:
 /// DrawnSurface (from the CPU) and DrawnDeviceSurface (from the buffers that smoothing works on).
 class SurfaceSource {
@@ -25,7 +31,8 @@ public:
 
     /// Binds the vertex array whose elements are the triangles. Attributes:
     /// gpu/shaders/surface.vert.
-    virtual void bind_triangles() const = 0;
+    /// \return number of triangles
+    virtual std::size_t bind_triangles(Detail detail) const = 0;
 
     /// Binds the vertex array with unique edges as elements, made on first use.
     /// \return number of edges

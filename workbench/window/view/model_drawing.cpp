@@ -197,6 +197,7 @@ Layers ModelDrawing::layers(const ViewLook& look, double edge_width) const {
     if (!drawn_) return layers;
     SurfaceLayer layer{.source = drawn_, .id = kModelLayer, .colouring = Colouring::Patches};
     layer.patch_colours = patch_colours(drawn_->surface());
+    if (look.coarse && !look.edges) layer.detail = Detail::Coarse;
     layer.flat = look.flat;
     layer.opacity = look.transparent ? kTransparent : 1.0;
     layer.edges = look.edges ? Edges::Over : Edges::Off;

@@ -26,6 +26,7 @@ struct ViewLook {
     bool flat = false;
     bool transparent = false;
     bool deviation = false;  ///< coloured by the distance from the source
+    bool coarse = false;     ///< of fewer triangles, unless their edges are seen
 
     bool operator==(const ViewLook&) const = default;
 };

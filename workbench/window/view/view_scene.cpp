@@ -185,8 +185,12 @@ ViewLook ViewScene::model_look() const {
 }
 
 Layers ViewScene::layers(const Ui& ui) const {
+    return layers_as(model_look(), ui);
+}
+
+Layers ViewScene::layers_as(const ViewLook& look, const Ui& ui) const {
     const double line = line_width(ui);
-    Layers layers = model_.layers(model_look(), line);
+    Layers layers = model_.layers(look, line);
     for (SurfaceLayer& layer : layers.surfaces) {
         layer.highlighted_patch = lit_patch_;
         layer.back_as_front = inside_;
@@ -247,25 +251,34 @@ Picture ViewScene::picture(Renderer& renderer, const Ui& ui, int factor,
     return target.picture();
 }
 
-/// Drawn by the processor, a picture without smooth edges takes half the time: what the mouse moves
-/// follows it better so, and is drawn again when it is let go.
-int ViewScene::wanted_samples() {
+/// Drawn by the processor, a picture without smooth edges and of fewer triangles takes a fraction
+/// of the time: what the mouse moves follows it better so, and is drawn again when it is let go.
+bool ViewScene::is_hurried() {
     if (!in_software_) in_software_ = draws_in_software();
-    return *in_software_ && ImGui::IsAnyMouseDown() ? 0 : RenderTarget::kSamples;
+    return *in_software_ && ImGui::IsAnyMouseDown();
+}
+
+/// The camera has moved while a button is held.
+bool ViewScene::turns() const {
+    return drawn_ && (drawn_->look.coarse || drawn_->camera != camera_);
 }
 
 void ViewScene::draw_picture(Renderer& renderer, const Ui& ui) {
-    const DrawnAs wanted = now(ui);
-    const int samples = wanted_samples();
+    const bool hurried = is_hurried();
+    DrawnAs wanted = now(ui);
+    wanted.look.coarse = hurried && turns();
+    const int samples = hurried ? 0 : RenderTarget::kSamples;
     if (drawn_ == wanted && samples <= samples_) return;
     if (!target_) target_.emplace(wanted.width, wanted.height, samples);
     target_->resize(wanted.width, wanted.height, samples);
     target_->bind();
     SceneView view = scene_view(ui);
     view.rectangle.x = static_cast<int>(rect_.x - area_.x);
-    if (!hides_model()) renderer.draw(view, layers(ui));
-    compared_.draw(renderer, view, look_, line_width(ui));
-    gallery_.draw(renderer, view, look_, line_width(ui));
+    ViewLook look = model_look();
+    look.coarse = wanted.look.coarse;
+    if (!hides_model()) renderer.draw(view, layers_as(look, ui));
+    compared_.draw(renderer, view, wanted.look, line_width(ui));
+    gallery_.draw(renderer, view, wanted.look, line_width(ui));
     texture_ = target_->resolve();
     drawn_ = wanted;
     samples_ = samples;

@@ -153,7 +153,9 @@ private:
     void choose_colours(PanelContext& context);
     void take_planes(PanelContext& context);
     [[nodiscard]] DrawnAs now(const Ui& ui) const;
-    [[nodiscard]] int wanted_samples();
+    [[nodiscard]] bool is_hurried();
+    [[nodiscard]] bool turns() const;
+    [[nodiscard]] Layers layers_as(const ViewLook& look, const Ui& ui) const;
     void draw_picture(Renderer& renderer, const Ui& ui);
 
     DrawingGuard& guard_;
