@@ -9,6 +9,7 @@
 #include "geometry/kernel/wording.h"
 #include "workbench/window/model/user_folders.h"
 #include "workbench/window/panels/banners.h"
+#include "workbench/window/panels/borders.h"
 #include "workbench/window/panels/bottom_panel.h"
 #include "workbench/window/panels/file_dialog.h"
 #include "workbench/window/panels/help_overlay.h"
@@ -69,6 +70,8 @@ struct App::Impl {
     }
 
     void take_case();
+    void unfold_form();
+    [[nodiscard]] Layout layout() const;
     [[nodiscard]] ScreenRect view_below_banners(PanelContext& context, const Layout& layout);
     void draw_case(PanelContext& context, const Layout& layout);
 
@@ -80,6 +83,7 @@ struct App::Impl {
     FileDialog files;
     ScreenRect whole_view, view;  ///< of the last frame: with its banners, and without
     int seen_opened = 0;          ///< Document::opened()
+    bool had_form = false;        ///< in the last frame
     std::string device;
     double display_scale = 1.0;
     bool moved = true;           ///< the last update changed something
@@ -114,6 +118,22 @@ void App::Impl::take_case() {
     if (std::exchange(seen_opened, place.document.opened()) == place.document.opened()) return;
     shown.prepare = false;
     shown.note.reset();
+    shown.enlarged = Enlarged::None;
+}
+
+/// A form that is opened is seen.
+void App::Impl::unfold_form() {
+    const bool has_form = place.form().has_value();
+    if (has_form && !std::exchange(had_form, has_form))
+        place.settings.panels[Panel::Operation].folded = false;
+    had_form = has_form;
+}
+
+Layout App::Impl::layout() const {
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    PanelSizes sizes = place.settings.panels;
+    if (shown.enlarged != Enlarged::None) sizes[Panel::Bottom].folded = true;
+    return layout_of(size.x, size.y, ui.em, sizes);
 }
 
 /// Below the banners. It stays where it is while something is dragged in it.
@@ -127,9 +147,10 @@ ScreenRect App::Impl::view_below_banners(PanelContext& context, const Layout& la
 void App::Impl::draw_case(PanelContext& context, const Layout& layout) {
     const ScreenRect below = view_below_banners(context, layout);
     viewport.draw(context, below);
-    draw_rail(context, layout.rail);
-    draw_operation_panel(context, layout.operation);
-    draw_bottom_panel(context, layout.bottom);
+    if (layout.rail.width > 0) draw_rail(context, layout.rail);
+    if (layout.operation.width > 0) draw_operation_panel(context, layout.operation);
+    if (layout.bottom.height > 0) draw_bottom_panel(context, layout.bottom);
+    for (const Border& border : layout.borders) draw_border(context, border);
     draw_banners(context, below);
     draw_view_panel(context, below);
 }
@@ -141,7 +162,8 @@ void App::draw() {
     app.thumbnails.update(app.place.document, app.viewport.renderer());
     app.ui.begin_frame();
     const ImVec2 size = ImGui::GetIO().DisplaySize;
-    const Layout layout = layout_of(size.x, size.y, app.ui.em);
+    app.unfold_form();
+    const Layout layout = app.layout();
     app.shown.compact = layout.compact;
     PanelContext context{app.ui,
                          app.place,

@@ -76,7 +76,7 @@ std::vector<KeyRow> view_rows() {
     return {{group, "rotate", "Left drag"},
             {group, "pan", "Middle or Shift+left drag"},
             {group, "zoom to the cursor", "Wheel"},
-            {group, "set the centre", "Double click"},
+            {group, "set the centre; beside the model, enlarge the view", "Double click"},
             {group, "in Smooth's form: drive two fields", "Right drag"},
             {group, "in Smooth's form: drive a third", "Shift+right drag"},
             {group,
@@ -198,6 +198,7 @@ std::vector<KeyRow> slice_rows() {
             {group, "move the cross", "Left drag"},
             {group, "window and level", "Right drag"},
             {group, "next slice; with Ctrl, zoom", "Wheel"},
+            {group, "enlarge a slice", "Double click"},
             {group, "show all of a slice", "", window, {{FrameSlice, keys::kHome}}}};
 }
 

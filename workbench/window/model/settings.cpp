@@ -43,6 +43,29 @@ bool written(const fs::path& folder, const std::string& text) {
     return true;
 }
 
+Json json_of(const PanelSizes& panels) {
+    Json json = {{"quarters", panels.quarters}};
+    for (const auto& [name, panel] : kPanels) {
+        const PanelSize& size = panels[panel];
+        Json entry = {{"folded", size.folded}};
+        if (size.share) entry["share"] = *size.share;
+        json[name] = entry;
+    }
+    return json;
+}
+
+PanelSizes panels_in(const Json& json) {
+    PanelSizes panels;
+    panels.quarters = json.value("quarters", false);
+    for (const auto& [name, panel] : kPanels) {
+        const Json entry = json.value(name, Json::object());
+        panels[panel].folded = entry.value("folded", false);
+        if (entry.contains("share"))
+            panels[panel].share = std::clamp(entry.at("share").get<double>(), 0.0, 1.0);
+    }
+    return panels;
+}
+
 fs::path whole_path(const fs::path& file) {
     std::error_code error;
     const fs::path whole = fs::weakly_canonical(file, error);
@@ -72,6 +95,7 @@ void Settings::read() {
     for (const Json& shown : json.value("layers", Json::array()))
         for (const auto& [name, layer] : kLayers)
             if (shown == name) layers.*layer = true;
+    panels = panels_in(json.value("panels", Json::object()));
     for (const Json& entry : json.value("recent", Json::array()))
         recent_.push_back(
             {entry.at("file").get<std::string>(), entry.value("opened", std::string())});
@@ -109,8 +133,11 @@ std::string Settings::text() const {
     Json shown = Json::array();
     for (const auto& [name, layer] : kLayers)
         if (layers.*layer) shown.push_back(name);
-    const Json json = {
-        {"theme", dark ? "dark" : "light"}, {"scale", scale}, {"layers", shown}, {"recent", list}};
+    const Json json = {{"theme", dark ? "dark" : "light"},
+                       {"scale", scale},
+                       {"layers", shown},
+                       {"panels", json_of(panels)},
+                       {"recent", list}};
     return text_from_json(json, 2) + "\n";
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "workbench/session/task.h"
+#include "workbench/window/model/panel_sizes.h"
 #include "workbench/window/model/view_choice.h"
 
 namespace vesselbench {
@@ -33,6 +34,7 @@ public:
     bool dark = true;
     double scale = 1.0;  ///< of all sizes, on top of the display's; in the range of kScales
     ShownLayers layers;  ///< of the view
+    PanelSizes panels;
 
     [[nodiscard]] const std::vector<RecentProject>& recent() const { return recent_; }
 

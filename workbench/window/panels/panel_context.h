@@ -7,6 +7,7 @@
 
 #include "workbench/case/edit_record.h"
 #include "workbench/window/model/key_table.h"
+#include "workbench/window/model/panel_sizes.h"
 #include "workbench/window/model/picture_look.h"
 #include "workbench/window/model/workplace.h"
 #include "workbench/window/view/thumbnails.h"
@@ -34,6 +35,7 @@ struct Shown {
     FormTab form = FormTab::Fields;  ///< of forms that can be followed live
     QualityView quality = QualityView::Graphs;
     std::string unfolded_form;  ///< whose seldom needed fields are seen: prefix and operation
+    Enlarged enlarged = Enlarged::None;
     bool help = false;
     bool prepare = false;                   ///< the question for what to prepare
     std::string purpose = kDefaultVariant;  ///< answer so far
@@ -46,6 +48,11 @@ struct Shown {
     bool compact = false;                   ///< little room: tool buttons without labels
     KeyCommands keys;                       ///< of this frame
 };
+
+/// Enlarges a part, or gives it back its room.
+inline void switch_enlarged(Shown& shown, Enlarged part) {
+    shown.enlarged = shown.enlarged == part ? Enlarged::None : part;
+}
 
 /// What panels draw from, and where their requests go.
 struct PanelContext {

@@ -222,6 +222,8 @@ bool leave_view_mode(PanelContext& c) {
         view.flies = false;
     else if (c.shown.view)
         c.shown.view = false;
+    else if (c.shown.enlarged != Enlarged::None)
+        c.shown.enlarged = Enlarged::None;
     else
         return false;
     return true;

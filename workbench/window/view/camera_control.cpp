@@ -182,9 +182,11 @@ void CameraControl::request_centre(const SceneView& view, const Layers& layers,
     picker_.request(view, layers, pixel.x(), pixel.y());
 }
 
-void CameraControl::take_centre() {
+bool CameraControl::take_centre() {
     const auto picked = picker_.result();
-    if (picked && picked->layer != 0 && centring_ == camera_) camera_.centre = picked->point;
+    if (!picked || centring_ != camera_) return false;
+    if (picked->layer != 0) camera_.centre = picked->point;
+    return picked->layer == 0;
 }
 
 // --- the lumen

@@ -73,7 +73,8 @@ public:
     /// The place under the mouse becomes the centre of turns as soon as it is found, unless the
     /// view is moved before.
     void request_centre(const SceneView& view, const Layers& layers, const Eigen::Vector2i& pixel);
-    void take_centre();
+    /// \return true if it is the background
+    [[nodiscard]] bool take_centre();
 
     // --- the lumen
 

@@ -163,6 +163,18 @@ void SlicePane::handle_click(PanelContext& c) {
     if (const auto label = c.place.slices().label_at(*pointed_)) c.place.pick_label(*label);
 }
 
+Enlarged enlarged_as(SlicePlane plane) {
+    switch (plane) {
+        case SlicePlane::Axial:
+            return Enlarged::Axial;
+        case SlicePlane::Coronal:
+            return Enlarged::Coronal;
+        case SlicePlane::Sagittal:
+            return Enlarged::Sagittal;
+    }
+    return Enlarged::None;
+}
+
 void SlicePane::handle_mouse(PanelContext& c) {
     const bool over = ImGui::IsItemHovered(), active = ImGui::IsItemActive();
     pointed_.reset();
@@ -172,6 +184,8 @@ void SlicePane::handle_mouse(PanelContext& c) {
     if (active) handle_drag(c);
     if (over && released) handle_click(c);
     if (!over) return;
+    if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) && !takes_clicks(c.place))
+        switch_enlarged(c.shown, enlarged_as(plane_));
     handle_wheel(c);
     if (c.shown.keys.has(KeyCommand::FrameSlice)) fits_ = true;
     if (takes_clicks(c.place)) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);

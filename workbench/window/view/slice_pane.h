@@ -16,6 +16,9 @@ namespace vesselbench {
 [[nodiscard]] ViewCamera slice_camera(const SliceGrid& grid, SlicePlane plane, double position,
                                       double aspect);
 
+/// The state of the window in which the slice of a plane is enlarged.
+[[nodiscard]] Enlarged enlarged_as(SlicePlane plane);
+
 /// What the 2D views share.
 struct PaneSource {
     Renderer& renderer;
@@ -25,14 +28,17 @@ struct PaneSource {
 
 /// A slice as a 2D view: letters of the sides, position, scale, and the lines of the other planes.
 /// Click or drag moves the cross there; a click gives its place to the armed parameter, or measures
-/// a distance while that tool is on; where a form crops, a drag draws the box; right drag changes
-/// window and level; the wheel goes through the slices, with Ctrl it zooms.
+/// a distance while that tool is on; a double click enlarges the slice, or ends that; where a form
+/// crops, a drag draws the box; right drag changes window and level; the wheel goes through the
+/// slices, with Ctrl it zooms.
 class SlicePane {
 public:
     explicit SlicePane(SlicePlane plane) : plane_(plane), crop_(plane) {}
 
     /// Needs the window's OpenGL context, as the destructor does.
     void draw(PanelContext& context, const PaneSource& source, const ScreenRect& rect);
+
+    [[nodiscard]] SlicePlane plane() const { return plane_; }
 
     /// The place under the cursor [mm].
     [[nodiscard]] const std::optional<Vec3>& pointed() const { return pointed_; }

@@ -15,9 +15,8 @@ namespace vesselbench {
 
 namespace {
 
-constexpr float kShare = 0.52F;  ///< of the view's height
-constexpr float kField = 4.6F;   ///< width of a number [em]
-constexpr float kWide = 36.0F;   ///< a narrower row has no words before its fields [em]
+constexpr float kField = 4.6F;  ///< width of a number [em]
+constexpr float kWide = 36.0F;  ///< a narrower row has no words before its fields [em]
 
 std::string place_words(const Vec3& point) {
     std::string words;
@@ -55,11 +54,6 @@ void toggle(PanelContext& c, const std::string& name, const char* icon, const st
 }
 
 }  // namespace
-
-ScreenRect slice_row_rect(const ScreenRect& view) {
-    const float height = std::round(view.height * kShare);
-    return {view.x, view.y + view.height - height, view.width, height};
-}
 
 std::optional<double> SliceRow::edit(PanelContext& c, const std::string& name, Typed& number,
                                      double value) {
@@ -129,23 +123,42 @@ void SliceRow::draw_header(PanelContext& c, const ScreenRect& rect) {
         draw_grey(c, rect.width < c.ui.em * kWide);
     }
     draw_toggles(c);
-    const float right = rect.x + rect.width - pad - side;
-    draw_pointed(c, right - c.ui.grid(1));
+    const float right = rect.x + rect.width - pad - side, before = right - side - pad;
+    draw_pointed(c, before - c.ui.grid(1));
+    ImGui::SetCursorScreenPos({before, rect.y + pad});
+    PanelSizes& panels = c.place.settings.panels;
+    toggle(c, "slices.quarters", icons::kGrid, "The model and the slices in two rows of two",
+           panels.quarters);
+    if (ImGui::IsItemDeactivated()) c.place.settings.save_soon();
     ImGui::SetCursorScreenPos({right, rect.y + pad});
     if (icon_button(c.ui, "slices.close", icons::kClose, "Close the slices  I"))
         c.place.slices().show_row(false);
     end_frame();
 }
 
-void SliceRow::draw(PanelContext& c, const PaneSource& source, const ScreenRect& rect) {
+/// The panes that are seen below the header, from left to right.
+std::vector<SlicePane*> SliceRow::panes_below(const PanelContext& c, const ViewParts& parts) {
+    for (SlicePane& pane : panes_)
+        if (enlarged_as(pane.plane()) == c.shown.enlarged) return {&pane};
+    std::vector<SlicePane*> row;
+    for (SlicePane& pane : panes_)
+        if (!parts.beside || &pane != &panes_.front()) row.push_back(&pane);
+    return row;
+}
+
+void SliceRow::draw(PanelContext& c, const PaneSource& source, const ViewParts& parts) {
     const float head = ImGui::GetFrameHeight() + c.ui.grid(1), line = 1.0F;
-    const auto count = static_cast<float>(panes_.size());
-    const float wide = std::floor((rect.width - (count - 1) * line) / count);
+    const ScreenRect& rect = parts.slices;
     draw_header(c, {rect.x, rect.y, rect.width, head});
+    if (parts.beside) panes_.front().draw(c, source, *parts.beside);
+    const std::vector<SlicePane*> row = panes_below(c, parts);
+    const auto count = static_cast<float>(row.size());
+    const float wide = std::floor((rect.width - (count - 1) * line) / count);
     float left = rect.x;
-    for (SlicePane& pane : panes_) {
-        const float right = &pane == &panes_.back() ? rect.x + rect.width : left + wide;
-        pane.draw(c, source, {left, rect.y + head + line, right - left, rect.height - head - line});
+    for (SlicePane* pane : row) {
+        const float right = pane == row.back() ? rect.x + rect.width : left + wide;
+        pane->draw(c, source,
+                   {left, rect.y + head + line, right - left, rect.height - head - line});
         left = right + line;
     }
 }

@@ -3,19 +3,19 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "workbench/window/panels/layout.h"
 #include "workbench/window/view/slice_pane.h"
 
 namespace vesselbench {
 
-/// The part of the 3D view's rectangle that the row of slices takes: its lower half.
-[[nodiscard]] ScreenRect slice_row_rect(const ScreenRect& view);
-
-/// The image as a row of 2D views, under a line with window, level, and the value under the cursor.
+/// The image as 2D views in a row, or in quarters with the model, or one of them enlarged; with a
+/// line of window, level, and the value under the cursor.
 class SliceRow {
 public:
     /// Needs the window's OpenGL context, as the destructor does.
-    void draw(PanelContext& context, const PaneSource& source, const ScreenRect& rect);
+    void draw(PanelContext& context, const PaneSource& source, const ViewParts& parts);
 
 private:
     /// A number's text while it is typed.
@@ -24,6 +24,8 @@ private:
         bool typing = false;
     };
 
+    [[nodiscard]] std::vector<SlicePane*> panes_below(const PanelContext& c,
+                                                      const ViewParts& parts);
     void draw_header(PanelContext& c, const ScreenRect& rect);
     void draw_grey(PanelContext& c, bool narrow);
     void draw_toggles(PanelContext& c) const;

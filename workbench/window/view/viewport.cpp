@@ -7,6 +7,8 @@
 #include <imgui.h>
 
 #include "gpu/render/renderer.h"
+#include "workbench/window/panels/borders.h"
+#include "workbench/window/panels/layout.h"
 #include "workbench/window/panels/panel_frame.h"
 #include "workbench/window/view/brush_pointer.h"
 #include "workbench/window/view/camera_control.h"
@@ -158,7 +160,7 @@ ViewMouse Viewport::Impl::take_mouse(PanelContext& c, const ScreenRect& area) co
 }
 
 void Viewport::Impl::follow_scene(PanelContext& c, const ScreenRect& area) {
-    camera.take_centre();
+    if (camera.take_centre()) switch_enlarged(c.shown, Enlarged::Model);
     camera.take_look(c.place);
     const ViewScene::Change change = scene.update(c, area);
     frame_change(c, change);
@@ -339,10 +341,11 @@ void Viewport::Impl::draw(PanelContext& c, const ScreenRect& area) {
 void Viewport::draw(PanelContext& c, const ScreenRect& whole) {
     // The gallery needs the height.
     const bool sliced = c.place.slices().in_row() && c.place.gallery().mode() == GalleryMode::Off;
-    const ScreenRect row = slice_row_rect(whole);
-    impl_->draw(c, {whole.x, whole.y, whole.width, sliced ? row.y - 1 - whole.y : whole.height});
-    if (sliced)
-        impl_->slice_row.draw(c, {impl_->renderer, impl_->scene.planes(), impl_->guard}, row);
+    if (!sliced || c.shown.enlarged == Enlarged::Model) return impl_->draw(c, whole);
+    const ViewParts parts = view_parts(whole, c.ui.em, c.place.settings.panels, c.shown.enlarged);
+    impl_->draw(c, parts.model);
+    impl_->slice_row.draw(c, {impl_->renderer, impl_->scene.planes(), impl_->guard}, parts);
+    if (parts.border) draw_border(c, *parts.border);
 }
 
 void Viewport::rest(PanelContext& c) {
