@@ -19,7 +19,7 @@
 #include "gpu/render/drawn_surface.h"
 #include "workbench/operations/table.h"
 #include "workbench/session/surface_change.h"
-#include "workbench/window/model/live_stroke.h"
+#include "workbench/window/case/live_stroke.h"
 
 namespace vesselbench::bench {
 

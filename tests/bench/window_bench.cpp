@@ -32,9 +32,9 @@
 #include "tests/window/random_user.h"
 #include "workbench/operations/smooth/change_meter.h"
 #include "workbench/operations/table.h"
-#include "workbench/window/keys.h"
+#include "workbench/window/drawing/screen_places.h"
+#include "workbench/window/keys/keys.h"
 #include "workbench/window/shell/offscreen_shell.h"
-#include "workbench/window/view/screen_places.h"
 
 namespace vesselbench::bench {
 

@@ -17,9 +17,9 @@
 #include "gpu/png.h"
 #include "tests/window/random_user.h"
 #include "workbench/operations/table.h"
-#include "workbench/window/keys.h"
+#include "workbench/window/drawing/screen_places.h"
+#include "workbench/window/keys/keys.h"
 #include "workbench/window/shell/offscreen_shell.h"
-#include "workbench/window/view/screen_places.h"
 
 namespace vesselbench::screenshots {
 

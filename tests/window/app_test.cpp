@@ -1,4 +1,4 @@
-#include "workbench/window/app.h"
+#include "workbench/window/app/app.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -12,7 +12,7 @@
 #include "tests/support/shapes.h"
 #include "tests/window/window_support.h"
 #include "workbench/operations/table.h"
-#include "workbench/window/keys.h"
+#include "workbench/window/keys/keys.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;

@@ -1,4 +1,4 @@
-#include "workbench/window/view/brush_pointer.h"
+#include "workbench/window/features/brush/brush_pointer.h"
 
 #include <algorithm>
 
@@ -9,7 +9,7 @@
 #include "tests/support/shapes.h"
 #include "tests/window/faulty_device.h"
 #include "tests/window/window_support.h"
-#include "workbench/window/keys.h"
+#include "workbench/window/keys/keys.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;

@@ -12,7 +12,7 @@
 #include "tests/support/shapes.h"
 #include "tests/window/faulty_device.h"
 #include "tests/window/window_support.h"
-#include "workbench/window/keys.h"
+#include "workbench/window/keys/keys.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;

@@ -1,4 +1,4 @@
-#include "workbench/window/model/colourings.h"
+#include "workbench/window/drawing/colourings.h"
 
 #include <algorithm>
 #include <array>
@@ -10,9 +10,9 @@
 
 #include "geometry/kernel/errors.h"
 #include "tests/support/shapes.h"
-#include "workbench/window/model/clipped_values.h"
-#include "workbench/window/model/view_choice.h"
-#include "workbench/window/model/worst_places.h"
+#include "workbench/window/drawing/view_choice.h"
+#include "workbench/window/features/clip/clipped_values.h"
+#include "workbench/window/features/colours/worst_places.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;

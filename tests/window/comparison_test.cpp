@@ -1,4 +1,4 @@
-#include "workbench/window/model/comparison.h"
+#include "workbench/window/features/compare/comparison.h"
 
 #include <cmath>
 #include <thread>
@@ -7,7 +7,7 @@
 
 #include "tests/support/shapes.h"
 #include "tests/window/window_support.h"
-#include "workbench/window/keys.h"
+#include "workbench/window/keys/keys.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;

@@ -8,10 +8,10 @@
 #include "tests/support/shapes.h"
 #include "tests/window/window_support.h"
 #include "workbench/operations/table.h"
-#include "workbench/window/keys.h"
-#include "workbench/window/model/crop_handles.h"
-#include "workbench/window/view/screen_places.h"
-#include "workbench/window/view/slice_pane.h"
+#include "workbench/window/drawing/screen_places.h"
+#include "workbench/window/features/handles/crop_handles.h"
+#include "workbench/window/features/slices/slice_pane.h"
+#include "workbench/window/keys/keys.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;

@@ -13,7 +13,7 @@
 #include "tests/support/child_process.h"
 #include "tests/support/commands.h"
 #include "tests/support/skip.h"
-#include "workbench/window/keys.h"
+#include "workbench/window/keys/keys.h"
 #include "workbench/window/shell/glfw_shell.h"
 
 namespace vesselbench::test {

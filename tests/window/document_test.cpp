@@ -1,6 +1,6 @@
 // The case in the window: which requests may meet, and that what is shown belongs to its state.
 
-#include "workbench/window/model/document.h"
+#include "workbench/window/case/document.h"
 
 #include <algorithm>
 #include <chrono>
@@ -18,9 +18,9 @@
 #include "tests/support/shapes.h"
 #include "tests/window/window_support.h"
 #include "workbench/session/task_thread.h"
-#include "workbench/window/model/history_tree.h"
-#include "workbench/window/model/rail.h"
-#include "workbench/window/model/request.h"
+#include "workbench/window/case/rail.h"
+#include "workbench/window/case/request.h"
+#include "workbench/window/features/history/history_tree.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;

@@ -7,9 +7,9 @@
 #include "geometry/kernel/measure.h"
 #include "tests/support/shapes.h"
 #include "tests/window/window_support.h"
-#include "workbench/window/keys.h"
-#include "workbench/window/model/field_text.h"
-#include "workbench/window/view/screen_places.h"
+#include "workbench/window/drawing/screen_places.h"
+#include "workbench/window/form/field_text.h"
+#include "workbench/window/keys/keys.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;

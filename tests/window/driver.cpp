@@ -7,7 +7,7 @@
 #include "tests/support/skip.h"
 #include "tests/window/display_driver.h"
 #include "tests/window/window_support.h"
-#include "workbench/window/keys.h"
+#include "workbench/window/keys/keys.h"
 
 namespace vesselbench::test {
 

@@ -17,7 +17,7 @@
 #include "tests/support/shapes.h"
 #include "tests/window/window_support.h"
 #include "tests/window/workplace_updates.h"
-#include "workbench/window/model/workplace.h"
+#include "workbench/window/workplace/workplace.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;

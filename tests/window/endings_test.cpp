@@ -16,7 +16,7 @@
 #include "tests/window/display_driver.h"
 #include "tests/window/walk_support.h"
 #include "tests/window/window_support.h"
-#include "workbench/window/keys.h"
+#include "workbench/window/keys/keys.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;

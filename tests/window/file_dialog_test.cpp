@@ -7,8 +7,8 @@
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
 #include "tests/window/window_support.h"
-#include "workbench/window/keys.h"
-#include "workbench/window/model/user_folders.h"
+#include "workbench/window/case/user_folders.h"
+#include "workbench/window/keys/keys.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;

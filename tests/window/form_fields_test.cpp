@@ -7,7 +7,7 @@
 #include "tests/support/paths.h"
 #include "tests/support/shapes.h"
 #include "tests/window/window_support.h"
-#include "workbench/window/model/label_list.h"
+#include "workbench/window/form/label_list.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;

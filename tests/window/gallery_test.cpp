@@ -11,9 +11,9 @@
 #include "tests/window/walk_support.h"
 #include "tests/window/window_support.h"
 #include "workbench/operations/table.h"
-#include "workbench/window/keys.h"
-#include "workbench/window/model/suggestion_gallery.h"
-#include "workbench/window/view/screen_places.h"
+#include "workbench/window/drawing/screen_places.h"
+#include "workbench/window/features/gallery/suggestion_gallery.h"
+#include "workbench/window/keys/keys.h"
 #include "workbench/worker/run_operation.h"
 
 using namespace vesselbench;

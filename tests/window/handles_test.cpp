@@ -7,11 +7,11 @@
 #include "geometry/kernel/measure.h"
 #include "tests/support/shapes.h"
 #include "workbench/operations/table.h"
-#include "workbench/window/model/crop_handles.h"
-#include "workbench/window/model/cut_handles.h"
-#include "workbench/window/model/handle.h"
-#include "workbench/window/model/length_handles.h"
-#include "workbench/window/model/opening_roles.h"
+#include "workbench/window/drawing/handle.h"
+#include "workbench/window/features/handles/crop_handles.h"
+#include "workbench/window/features/handles/cut_handles.h"
+#include "workbench/window/features/handles/length_handles.h"
+#include "workbench/window/features/openings/opening_roles.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;

@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "workbench/window/keys.h"
+#include "workbench/window/keys/keys.h"
 
 using namespace vesselbench;
 

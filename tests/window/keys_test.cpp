@@ -1,11 +1,11 @@
-#include "workbench/window/keys.h"
+#include "workbench/window/keys/keys.h"
 
 #include <algorithm>
 
 #include <catch2/catch.hpp>
 
 #include "tests/window/window_support.h"
-#include "workbench/window/model/key_table.h"
+#include "workbench/window/keys/key_table.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;

@@ -1,6 +1,6 @@
 // The surface of the image follows the iso-value while it is slid.
 
-#include "workbench/window/model/live_extraction.h"
+#include "workbench/window/features/extraction/live_extraction.h"
 
 #include <algorithm>
 
@@ -13,7 +13,7 @@
 #include "tests/window/walk_support.h"
 #include "tests/window/window_support.h"
 #include "workbench/operations/table.h"
-#include "workbench/window/keys.h"
+#include "workbench/window/keys/keys.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;

@@ -1,6 +1,6 @@
 // Smoothing that the view follows while the mouse, or typing, changes the form.
 
-#include "workbench/window/model/live_smoothing.h"
+#include "workbench/window/features/live/live_smoothing.h"
 
 #include <algorithm>
 
@@ -11,7 +11,7 @@
 #include "tests/window/walk_support.h"
 #include "tests/window/window_support.h"
 #include "workbench/operations/table.h"
-#include "workbench/window/keys.h"
+#include "workbench/window/keys/keys.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;

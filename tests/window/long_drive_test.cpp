@@ -13,7 +13,7 @@
 #include "geometry/kernel/stopwatch.h"
 #include "tests/window/walk_support.h"
 #include "tests/window/window_support.h"
-#include "workbench/window/keys.h"
+#include "workbench/window/keys/keys.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;

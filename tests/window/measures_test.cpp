@@ -9,9 +9,9 @@
 #include "tests/support/shapes.h"
 #include "tests/window/window_support.h"
 #include "workbench/report/measure_table.h"
-#include "workbench/window/keys.h"
-#include "workbench/window/model/measure_list.h"
-#include "workbench/window/view/screen_places.h"
+#include "workbench/window/drawing/screen_places.h"
+#include "workbench/window/features/measures/measure_list.h"
+#include "workbench/window/keys/keys.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;

@@ -10,7 +10,7 @@
 #include "tests/support/image_shapes.h"
 #include "tests/support/shapes.h"
 #include "tests/window/window_support.h"
-#include "workbench/window/keys.h"
+#include "workbench/window/keys/keys.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;

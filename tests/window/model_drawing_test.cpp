@@ -1,4 +1,4 @@
-#include "workbench/window/view/model_drawing.h"
+#include "workbench/window/drawing/model_drawing.h"
 
 #include <chrono>
 #include <memory>

@@ -13,9 +13,9 @@
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
 #include "tests/window/window_support.h"
-#include "workbench/window/model/preparation.h"
-#include "workbench/window/model/readable.h"
-#include "workbench/window/model/unit_question.h"
+#include "workbench/window/case/preparation.h"
+#include "workbench/window/case/readable.h"
+#include "workbench/window/case/unit_question.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;

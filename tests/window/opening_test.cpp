@@ -1,4 +1,4 @@
-#include "workbench/window/model/opening.h"
+#include "workbench/window/case/opening.h"
 
 #include <chrono>
 #include <filesystem>
@@ -10,7 +10,7 @@
 #include "tests/support/shapes.h"
 #include "tests/window/window_support.h"
 #include "workbench/session/stored_texts.h"
-#include "workbench/window/model/document.h"
+#include "workbench/window/case/document.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;

@@ -20,9 +20,9 @@
 #include "tests/window/window_support.h"
 #include "tests/window/workplace_updates.h"
 #include "workbench/phantoms/phantom_json.h"
-#include "workbench/window/keys.h"
-#include "workbench/window/model/cut_handles.h"
-#include "workbench/window/model/workplace.h"
+#include "workbench/window/features/handles/cut_handles.h"
+#include "workbench/window/keys/keys.h"
+#include "workbench/window/workplace/workplace.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;

@@ -1,10 +1,10 @@
-#include "workbench/window/model/operation_form.h"
+#include "workbench/window/form/operation_form.h"
 
 #include <catch2/catch.hpp>
 
 #include "geometry/kernel/errors.h"
 #include "workbench/operations/table.h"
-#include "workbench/window/model/automatic_values.h"
+#include "workbench/window/form/automatic_values.h"
 
 using namespace vesselbench;
 using Catch::Matchers::Contains;

@@ -1,4 +1,4 @@
-#include "workbench/window/model/parameter_drive.h"
+#include "workbench/window/features/live/parameter_drive.h"
 
 #include <algorithm>
 

@@ -1,10 +1,11 @@
-#include "workbench/window/model/pick_target.h"
+#include "workbench/window/case/pick_target.h"
 
 #include <cmath>
 
 #include <catch2/catch.hpp>
 
 #include "workbench/operations/table.h"
+#include "workbench/window/form/picked_text.h"
 
 using namespace vesselbench;
 

@@ -13,8 +13,8 @@
 #include "tests/support/shapes.h"
 #include "tests/window/window_support.h"
 #include "workbench/case/json_text.h"
-#include "workbench/window/model/document.h"
-#include "workbench/window/model/rail.h"
+#include "workbench/window/case/document.h"
+#include "workbench/window/case/rail.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;

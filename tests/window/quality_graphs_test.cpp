@@ -8,7 +8,7 @@
 #include "tests/support/shapes.h"
 #include "tests/window/walk_support.h"
 #include "tests/window/window_support.h"
-#include "workbench/window/keys.h"
+#include "workbench/window/keys/keys.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;

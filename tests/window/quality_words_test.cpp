@@ -1,4 +1,4 @@
-#include "workbench/window/model/quality_words.h"
+#include "workbench/window/features/quality/quality_words.h"
 
 #include <algorithm>
 

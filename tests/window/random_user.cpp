@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <iterator>
 
-#include "workbench/window/keys.h"
+#include "workbench/window/keys/keys.h"
 
 namespace vesselbench::test {
 

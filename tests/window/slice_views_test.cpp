@@ -8,10 +8,11 @@
 #include "tests/support/paths.h"
 #include "tests/support/shapes.h"
 #include "tests/window/window_support.h"
-#include "workbench/window/keys.h"
-#include "workbench/window/model/pick_target.h"
-#include "workbench/window/view/screen_places.h"
-#include "workbench/window/view/slice_pane.h"
+#include "workbench/window/case/pick_target.h"
+#include "workbench/window/drawing/screen_places.h"
+#include "workbench/window/features/slices/slice_pane.h"
+#include "workbench/window/form/picked_text.h"
+#include "workbench/window/keys/keys.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;

@@ -5,7 +5,7 @@
 
 #include "tests/support/image_shapes.h"
 #include "tests/support/shapes.h"
-#include "workbench/window/model/image_slices.h"
+#include "workbench/window/features/slices/image_slices.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;

@@ -1,11 +1,11 @@
-#include "workbench/window/model/stroke.h"
+#include "workbench/window/case/stroke.h"
 
 #include <catch2/catch.hpp>
 
 #include "tests/support/shapes.h"
 #include "workbench/operations/table.h"
-#include "workbench/window/model/brush_form.h"
-#include "workbench/window/model/live_stroke.h"
+#include "workbench/window/case/live_stroke.h"
+#include "workbench/window/features/brush/brush_form.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;

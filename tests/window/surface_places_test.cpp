@@ -1,4 +1,4 @@
-#include "workbench/window/model/surface_places.h"
+#include "workbench/window/case/surface_places.h"
 
 #include <atomic>
 #include <chrono>

@@ -1,4 +1,4 @@
-#include "workbench/window/view/thumbnails.h"
+#include "workbench/window/features/history/thumbnails.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -12,8 +12,8 @@
 #include "tests/support/shapes.h"
 #include "tests/support/skip.h"
 #include "tests/window/window_support.h"
-#include "workbench/window/model/thumbnail_files.h"
-#include "workbench/window/view/thumbnail_drawing.h"
+#include "workbench/window/features/history/thumbnail_drawing.h"
+#include "workbench/window/features/history/thumbnail_files.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;

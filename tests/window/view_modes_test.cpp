@@ -16,8 +16,8 @@
 #include "tests/support/stack_phantoms.h"
 #include "tests/window/faulty_device.h"
 #include "tests/window/window_support.h"
-#include "workbench/window/keys.h"
-#include "workbench/window/view/screen_places.h"
+#include "workbench/window/drawing/screen_places.h"
+#include "workbench/window/keys/keys.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;

@@ -10,8 +10,8 @@
 #include "tests/window/window_support.h"
 #include "workbench/case/parameter_texts.h"
 #include "workbench/case/shell_text.h"
-#include "workbench/window/keys.h"
-#include "workbench/window/view/screen_places.h"
+#include "workbench/window/drawing/screen_places.h"
+#include "workbench/window/keys/keys.h"
 
 namespace vesselbench::test {
 

@@ -4,7 +4,7 @@
 #include <functional>
 #include <thread>
 
-#include "workbench/window/model/workplace.h"
+#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench::test {
 

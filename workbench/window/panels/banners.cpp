@@ -6,14 +6,17 @@
 #include <imgui.h>
 
 #include "geometry/kernel/wording.h"
-#include "workbench/window/model/readable.h"
-#include "workbench/window/panels/comparison_banner.h"
+#include "workbench/window/case/readable.h"
+#include "workbench/window/core/shown.h"
+#include "workbench/window/features/compare/comparison_banner.h"
+#include "workbench/window/features/gallery/gallery_view.h"
 #include "workbench/window/panels/message_panel.h"
-#include "workbench/window/panels/panel_frame.h"
 #include "workbench/window/panels/unit_banner.h"
 #include "workbench/window/style/icons.h"
-#include "workbench/window/view/gallery_view.h"
 #include "workbench/window/widgets/controls.h"
+#include "workbench/window/widgets/panel_frame.h"
+#include "workbench/window/widgets/ui.h"
+#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 

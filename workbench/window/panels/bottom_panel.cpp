@@ -4,12 +4,15 @@
 
 #include <imgui.h>
 
-#include "workbench/window/panels/history_panel.h"
-#include "workbench/window/panels/measure_panel.h"
+#include "workbench/window/core/shown.h"
+#include "workbench/window/features/history/history_panel.h"
+#include "workbench/window/features/measures/measure_panel.h"
 #include "workbench/window/panels/message_panel.h"
-#include "workbench/window/panels/panel_frame.h"
 #include "workbench/window/style/icons.h"
 #include "workbench/window/widgets/controls.h"
+#include "workbench/window/widgets/panel_frame.h"
+#include "workbench/window/widgets/ui.h"
+#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 

@@ -6,11 +6,14 @@
 
 #include "geometry/kernel/wording.h"
 #include "workbench/export/export_formats.h"
-#include "workbench/window/model/user_folders.h"
-#include "workbench/window/panels/panel_frame.h"
+#include "workbench/window/case/user_folders.h"
+#include "workbench/window/core/shown.h"
 #include "workbench/window/style/icons.h"
 #include "workbench/window/widgets/controls.h"
+#include "workbench/window/widgets/panel_frame.h"
 #include "workbench/window/widgets/row.h"
+#include "workbench/window/widgets/ui.h"
+#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 

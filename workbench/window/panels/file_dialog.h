@@ -6,8 +6,10 @@
 #include <utility>
 
 #include "workbench/session/task.h"
-#include "workbench/window/model/folder_listing.h"
-#include "workbench/window/panels/panel_context.h"
+#include "workbench/window/core/panel_context.h"
+#include "workbench/window/panels/folder_listing.h"
+#include "workbench/window/widgets/ui.h"
+#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 

@@ -2,10 +2,12 @@
 
 #include <imgui.h>
 
-#include "workbench/window/model/key_table.h"
-#include "workbench/window/panels/panel_frame.h"
+#include "workbench/window/core/shown.h"
+#include "workbench/window/keys/key_table.h"
 #include "workbench/window/style/icons.h"
 #include "workbench/window/widgets/controls.h"
+#include "workbench/window/widgets/panel_frame.h"
+#include "workbench/window/widgets/ui.h"
 
 namespace vesselbench {
 

@@ -2,10 +2,12 @@
 
 #include <imgui.h>
 
-#include "workbench/window/model/readable.h"
-#include "workbench/window/panels/gallery_panel.h"
-#include "workbench/window/panels/quality_graphs.h"
+#include "workbench/window/case/readable.h"
+#include "workbench/window/features/gallery/gallery_panel.h"
+#include "workbench/window/features/quality/quality_graphs.h"
 #include "workbench/window/widgets/controls.h"
+#include "workbench/window/widgets/ui.h"
+#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 

@@ -5,9 +5,11 @@
 
 #include <imgui.h>
 
-#include "workbench/window/model/readable.h"
+#include "workbench/window/case/readable.h"
 #include "workbench/window/style/icons.h"
 #include "workbench/window/widgets/controls.h"
+#include "workbench/window/widgets/ui.h"
+#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 

@@ -1,6 +1,8 @@
 #pragma once
 
-#include "workbench/window/panels/panel_context.h"
+#include "workbench/window/case/message.h"
+#include "workbench/window/core/panel_context.h"
+#include "workbench/window/style/theme.h"
 
 namespace vesselbench {
 

@@ -6,18 +6,21 @@
 
 #include "workbench/case/parameter_texts.h"
 #include "workbench/operations/table.h"
-#include "workbench/window/model/brush_form.h"
-#include "workbench/window/model/field_text.h"
-#include "workbench/window/model/readable.h"
-#include "workbench/window/panels/extraction_panel.h"
-#include "workbench/window/panels/form_fields.h"
+#include "workbench/window/case/readable.h"
+#include "workbench/window/core/shown.h"
+#include "workbench/window/features/brush/brush_form.h"
+#include "workbench/window/features/extraction/extraction_panel.h"
+#include "workbench/window/features/openings/openings_panel.h"
+#include "workbench/window/fields/form_fields.h"
+#include "workbench/window/form/field_text.h"
 #include "workbench/window/panels/live_panel.h"
 #include "workbench/window/panels/message_panel.h"
-#include "workbench/window/panels/openings_panel.h"
-#include "workbench/window/panels/panel_frame.h"
 #include "workbench/window/style/icons.h"
 #include "workbench/window/widgets/controls.h"
+#include "workbench/window/widgets/panel_frame.h"
 #include "workbench/window/widgets/row.h"
+#include "workbench/window/widgets/ui.h"
+#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "workbench/window/panels/panel_context.h"
+#include "workbench/window/core/panel_context.h"
+#include "workbench/window/widgets/ui.h"
 
 namespace vesselbench {
 

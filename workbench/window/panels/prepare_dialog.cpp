@@ -7,13 +7,16 @@
 
 #include "workbench/case/argument_texts.h"
 #include "workbench/case/purposes.h"
-#include "workbench/window/model/rail.h"
-#include "workbench/window/model/readable.h"
-#include "workbench/window/panels/form_fields.h"
-#include "workbench/window/panels/panel_frame.h"
+#include "workbench/window/case/rail.h"
+#include "workbench/window/case/readable.h"
+#include "workbench/window/core/shown.h"
+#include "workbench/window/fields/form_fields.h"
 #include "workbench/window/style/icons.h"
 #include "workbench/window/widgets/controls.h"
+#include "workbench/window/widgets/panel_frame.h"
 #include "workbench/window/widgets/row.h"
+#include "workbench/window/widgets/ui.h"
+#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 

@@ -2,8 +2,10 @@
 
 #include <imgui.h>
 
-#include "workbench/window/model/key_table.h"
+#include "workbench/window/core/shown.h"
+#include "workbench/window/keys/key_table.h"
 #include "workbench/window/panels/view_panel.h"
+#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "workbench/window/panels/panel_context.h"
+#include "workbench/window/core/panel_context.h"
 
 namespace vesselbench {
 

@@ -6,13 +6,16 @@
 #include <imgui.h>
 
 #include "workbench/phantoms/phantom_json.h"
-#include "workbench/window/model/readable.h"
-#include "workbench/window/model/user_folders.h"
-#include "workbench/window/panels/panel_frame.h"
+#include "workbench/window/case/readable.h"
+#include "workbench/window/case/user_folders.h"
+#include "workbench/window/features/history/thumbnail_drawing.h"
+#include "workbench/window/features/history/thumbnails.h"
 #include "workbench/window/style/icons.h"
-#include "workbench/window/view/thumbnail_drawing.h"
 #include "workbench/window/widgets/controls.h"
+#include "workbench/window/widgets/panel_frame.h"
 #include "workbench/window/widgets/row.h"
+#include "workbench/window/widgets/ui.h"
+#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 

@@ -5,11 +5,14 @@
 #include <imgui.h>
 
 #include "geometry/kernel/wording.h"
-#include "workbench/window/model/readable.h"
+#include "workbench/window/case/readable.h"
+#include "workbench/window/core/shown.h"
 #include "workbench/window/panels/message_panel.h"
-#include "workbench/window/panels/panel_frame.h"
 #include "workbench/window/style/icons.h"
 #include "workbench/window/widgets/controls.h"
+#include "workbench/window/widgets/panel_frame.h"
+#include "workbench/window/widgets/ui.h"
+#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 

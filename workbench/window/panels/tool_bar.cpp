@@ -6,9 +6,12 @@
 
 #include "geometry/kernel/wording.h"
 #include "workbench/case/purposes.h"
-#include "workbench/window/panels/panel_frame.h"
+#include "workbench/window/core/shown.h"
 #include "workbench/window/style/icons.h"
 #include "workbench/window/widgets/controls.h"
+#include "workbench/window/widgets/panel_frame.h"
+#include "workbench/window/widgets/ui.h"
+#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 

@@ -2,9 +2,11 @@
 
 #include <imgui.h>
 
-#include "workbench/window/panels/panel_frame.h"
 #include "workbench/window/style/icons.h"
 #include "workbench/window/widgets/controls.h"
+#include "workbench/window/widgets/panel_frame.h"
+#include "workbench/window/widgets/ui.h"
+#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 

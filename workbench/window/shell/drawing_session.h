@@ -1,6 +1,6 @@
 #pragma once
 
-#include "workbench/window/app.h"
+#include "workbench/window/app/app.h"
 
 namespace vesselbench {
 

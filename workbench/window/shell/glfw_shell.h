@@ -4,7 +4,7 @@
 #include <memory>
 #include <stop_token>
 
-#include "workbench/window/app.h"
+#include "workbench/window/app/app.h"
 
 namespace vesselbench {
 

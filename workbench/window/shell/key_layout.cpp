@@ -3,7 +3,7 @@
 #include <cctype>
 #include <string_view>
 
-#include "workbench/window/keys.h"
+#include "workbench/window/keys/keys.h"
 
 namespace vesselbench {
 

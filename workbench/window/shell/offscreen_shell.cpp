@@ -11,7 +11,7 @@
 #include "geometry/kernel/stopwatch.h"
 #include "gpu/context.h"
 #include "gpu/objects.h"
-#include "workbench/window/keys.h"
+#include "workbench/window/keys/keys.h"
 #include "workbench/window/shell/drawing_session.h"
 
 namespace vesselbench {

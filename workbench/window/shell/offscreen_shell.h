@@ -7,7 +7,7 @@
 
 #include "gpu/debug_output.h"
 #include "gpu/picture.h"
-#include "workbench/window/app.h"
+#include "workbench/window/app/app.h"
 
 namespace vesselbench {
 

@@ -2,7 +2,7 @@
 
 #include "geometry/kernel/errors.h"
 #include "geometry/vessel/openings/branch_part.h"
-#include "workbench/window/model/field_text.h"
+#include "workbench/window/form/field_text.h"
 
 namespace vesselbench {
 

@@ -7,7 +7,7 @@
 #include "gpu/render/drawn_surface.h"
 #include "gpu/render/layers.h"
 #include "workbench/session/task.h"
-#include "workbench/window/model/operation_form.h"
+#include "workbench/window/form/operation_form.h"
 
 namespace vesselbench {
 

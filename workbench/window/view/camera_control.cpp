@@ -8,7 +8,9 @@
 #include <Eigen/Geometry>
 #include <imgui.h>
 
+#include "workbench/window/core/shown.h"
 #include "workbench/window/widgets/controls.h"
+#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 

@@ -4,9 +4,11 @@
 #include <optional>
 
 #include "gpu/render/pick.h"
-#include "workbench/window/model/pixel_view.h"
-#include "workbench/window/panels/panel_context.h"
-#include "workbench/window/view/endoscope.h"
+#include "workbench/window/core/panel_context.h"
+#include "workbench/window/drawing/pixel_view.h"
+#include "workbench/window/drawing/view_choice.h"
+#include "workbench/window/features/flight/endoscope.h"
+#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 

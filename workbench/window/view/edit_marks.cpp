@@ -1,6 +1,8 @@
 #include "workbench/window/view/edit_marks.h"
 
-#include "workbench/window/model/readable.h"
+#include "workbench/window/case/readable.h"
+#include "workbench/window/widgets/ui.h"
+#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "workbench/window/panels/panel_context.h"
-#include "workbench/window/view/screen_places.h"
+#include "workbench/window/core/panel_context.h"
+#include "workbench/window/drawing/screen_places.h"
 
 namespace vesselbench {
 

@@ -3,8 +3,11 @@
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
 #include "workbench/case/measure_json.h"
-#include "workbench/window/model/edit_anchors.h"
-#include "workbench/window/model/region_lines.h"
+#include "workbench/window/core/shown.h"
+#include "workbench/window/drawing/region_lines.h"
+#include "workbench/window/view/edit_anchors.h"
+#include "workbench/window/widgets/ui.h"
+#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 

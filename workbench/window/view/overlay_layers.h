@@ -8,8 +8,8 @@
 #include "gpu/render/drawn_surface.h"
 #include "gpu/render/layers.h"
 #include "workbench/session/task.h"
-#include "workbench/window/panels/panel_context.h"
-#include "workbench/window/view/screen_places.h"
+#include "workbench/window/core/panel_context.h"
+#include "workbench/window/drawing/screen_places.h"
 
 namespace vesselbench {
 

@@ -5,6 +5,9 @@
 #include <imgui.h>
 
 #include "gpu/device.h"
+#include "workbench/window/core/shown.h"
+#include "workbench/window/widgets/ui.h"
+#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 

@@ -5,17 +5,18 @@
 
 #include "gpu/render/renderer.h"
 #include "gpu/render/target.h"
-#include "workbench/window/model/pixel_view.h"
-#include "workbench/window/panels/panel_context.h"
+#include "workbench/window/core/panel_context.h"
+#include "workbench/window/drawing/drawing_guard.h"
+#include "workbench/window/drawing/model_drawing.h"
+#include "workbench/window/drawing/pixel_view.h"
+#include "workbench/window/drawing/region_drawing.h"
+#include "workbench/window/features/clip/clip_section.h"
+#include "workbench/window/features/compare/comparison_view.h"
+#include "workbench/window/features/gallery/gallery_view.h"
+#include "workbench/window/features/slices/slice_planes.h"
 #include "workbench/window/view/branch_highlight.h"
-#include "workbench/window/view/clip_section.h"
-#include "workbench/window/view/comparison_view.h"
-#include "workbench/window/view/drawing_guard.h"
-#include "workbench/window/view/gallery_view.h"
-#include "workbench/window/view/model_drawing.h"
 #include "workbench/window/view/overlay_layers.h"
-#include "workbench/window/view/region_drawing.h"
-#include "workbench/window/view/slice_planes.h"
+#include "workbench/window/widgets/ui.h"
 
 namespace vesselbench {
 

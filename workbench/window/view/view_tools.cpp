@@ -5,9 +5,12 @@
 #include <imgui.h>
 
 #include "workbench/operations/table.h"
+#include "workbench/window/core/shown.h"
+#include "workbench/window/drawing/view_overlays.h"
 #include "workbench/window/style/icons.h"
-#include "workbench/window/view/view_overlays.h"
 #include "workbench/window/widgets/controls.h"
+#include "workbench/window/widgets/ui.h"
+#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 

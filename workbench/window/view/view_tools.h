@@ -1,8 +1,9 @@
 #pragma once
 
-#include "workbench/window/model/clipped_values.h"
-#include "workbench/window/panels/panel_context.h"
+#include "workbench/window/core/panel_context.h"
+#include "workbench/window/features/clip/clipped_values.h"
 #include "workbench/window/view/view_scene.h"
+#include "workbench/window/widgets/ui.h"
 
 namespace vesselbench {
 

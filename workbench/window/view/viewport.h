@@ -4,7 +4,8 @@
 
 #include "gpu/render/renderer.h"
 #include "gpu/render/view_camera.h"
-#include "workbench/window/panels/panel_context.h"
+#include "workbench/window/core/panel_context.h"
+#include "workbench/window/widgets/ui.h"
 
 namespace vesselbench {
 

@@ -1,0 +1,684 @@
+#include "workbench/window/case/document.h"
+
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <exception>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+#include "geometry/kernel/derived_cache.h"
+#include "geometry/kernel/diagnosed_error.h"
+#include "geometry/kernel/diagnostic_text.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/pending_files.h"
+#include "geometry/kernel/wording.h"
+#include "workbench/case/diagnostic_words.h"
+#include "workbench/case/purposes.h"
+#include "workbench/export/export_formats.h"
+#include "workbench/export/products.h"
+#include "workbench/prepare/prepared_purposes.h"
+#include "workbench/session/stored_texts.h"
+#include "workbench/window/case/rail.h"
+#include "workbench/window/case/readable.h"
+#include "workbench/window/case/snapshot_edits.h"
+
+namespace vesselbench {
+
+namespace {
+
+constexpr std::size_t kMostMessages = 500;
+
+/// How often an opening that waits asks whether it was cancelled.
+constexpr std::chrono::milliseconds kCancelAsked(20);
+
+// Polls after a case was closed until the frames between them have let go of what they showed: of
+// the frame that closed it, then of the first one without it.
+constexpr int kPollsToRelease = 3;
+
+/// The free memory of all arenas: without this, glibc keeps it below what is still used.
+void give_back_memory() {
+#ifdef __GLIBC__
+    malloc_trim(0);
+#endif
+}
+
+/// A case on its way out: strokes that were painted to their end are entered first.
+class ClosedCase {
+public:
+    ClosedCase(std::unique_ptr<SessionRunner> runner, StrokeQueue strokes)
+        : runner_(std::move(runner)), strokes_(std::move(strokes)) {}
+
+    ~ClosedCase() { strokes_.finish(); }
+
+    ClosedCase(const ClosedCase&) = delete;
+    ClosedCase& operator=(const ClosedCase&) = delete;
+
+private:
+    std::unique_ptr<SessionRunner> runner_;
+    StrokeQueue strokes_;  ///< last: they use the runner
+};
+
+/// \throw IoError for a file that an edit has read
+void require_no_source(const Session& session, const std::filesystem::path& file) {
+    if (session.is_source(file))
+        throw IoError("'" + file.filename().string() +
+                      "' is a source of this project: it is not replaced");
+}
+
+RequestLabel history_label(const std::string& what) {
+    return {.what = what, .kind = RequestKind::History};
+}
+
+RequestLabel edit_label(const std::string& operation) {
+    return {.what = readable(operation), .kind = RequestKind::Edit, .operation = operation};
+}
+
+RequestLabel preview_label(const std::string& what, const std::string& operation) {
+    return {.what = "Preview of " + what, .kind = RequestKind::Preview, .operation = operation};
+}
+
+RequestLabel output_label(const std::string& what) {
+    return {.what = what, .kind = RequestKind::Output};
+}
+
+/// What is known of why a request failed; empty: it was cancelled.
+std::vector<Diagnostic> errors_of(const std::exception_ptr& error) {
+    std::string text = error_text(error);
+    if (text.empty()) return {};
+    try {
+        std::rethrow_exception(error);
+    } catch (const Diagnosed& known) {
+        return known.diagnostics();
+    } catch (...) {
+        return {plain_text(std::move(text))};
+    }
+}
+
+}  // namespace
+
+Document::Document(DocumentOptions options)
+    : options_(std::move(options)),
+      opening_(options_.wake),
+      shown_([this](const std::string& text) { tell(make_message(MessageKind::Warning, text)); }) {}
+
+Document::~Document() {
+    close();
+}
+
+template <class Result, class Then>
+void Document::watch(Task<Result> task, const RequestLabel& label, Then then) {
+    auto run = task.run();
+    const auto finish = [this, task = std::move(task), label, then = std::move(then)] {
+        try {
+            then(task.result());
+        } catch (...) {
+            end(RequestEnd{label, errors_of(std::current_exception())});
+        }
+    };
+    requests_.push_back({label, std::move(run), finish});
+}
+
+bool Document::poll() {
+    bool changed = false;
+    if (is_opening() && opening_.ended()) {
+        take_opened();
+        changed = true;
+    }
+    release_memory();
+    if (!runner_) return changed;
+    const std::vector<Request> ended = take_ended(requests_);
+    const std::vector<EndedStroke> strokes = strokes_.poll();
+    if (runner_->snapshot() != snapshot_) {
+        take_snapshot();
+        changed = true;
+    }
+    for (const Request& request : ended) request.finish();
+    for (const EndedStroke& stroke : strokes) end(stroke);
+    changed |= shown_.poll();
+    if (requests_.empty() && strokes_.empty()) shown_.request(*runner_);
+    return changed || !ended.empty() || !strokes.empty() || strokes_.has_moves();
+}
+
+// --- the case
+
+/// Lets a case end on a thread of its own: it may have to wait for an operation.
+void Document::retire(std::shared_ptr<void> owner) {
+    closing_ = std::make_shared<TaskRun>(
+        [owner = std::move(owner)](const Progress&) mutable { owner.reset(); });
+    closer_.add(closing_);
+}
+
+/// Gives a closed case's memory back to the system, on a thread of its own: that takes a while.
+void Document::release_memory() {
+    if (polls_to_release_ == 0 || is_closing()) return;
+    if (--polls_to_release_ > 0) return;
+    const bool open = is_open() || is_opening();
+    closing_ = std::make_shared<TaskRun>([open](const Progress&) {
+        if (!open) derived_cache().clear();
+        give_back_memory();
+    });
+    closer_.add(closing_);
+}
+
+void Document::open(OpenRequest request) {
+    request.documents = options_.documents;
+    request.open_project = project_;
+    failure_.reset();
+    std::error_code ignored;
+    const bool can_change = runner_ && snapshot_->read_only_reason.empty();
+    if (can_change && std::filesystem::equivalent(request.path, project_, ignored))
+        return tell(make_message(MessageKind::Remark, request.name() + " is open already"));
+    opening_.forget();
+    other_messages_ = messages_.size();
+    // A case that is being closed, or opened, may hold the same project: it ends first.
+    opening_.start([request = std::move(request), options = options_.session,
+                    closing = closing_](const Progress& progress) {
+        while (closing && !closing->wait_for(kCancelAsked)) progress.check_cancelled();
+        Opened opened = open_case(request, options, progress);
+        static_cast<void>(opened.session.snapshot());  // reads the records here, not in a frame
+        return opened;
+    });
+}
+
+void Document::begin_anew() {
+    if (!made_before_) return;
+    OpenRequest request = *std::exchange(made_before_, std::nullopt);
+    request.anew = true;
+    open(std::move(request));
+}
+
+void Document::close() {
+    for (const Request& request : requests_) request.run->cancel();
+    requests_.clear();
+    preparation_.reset();
+    if (runner_) {
+        retire(std::make_shared<ClosedCase>(std::move(runner_), std::exchange(strokes_, {})));
+        polls_to_release_ = kPollsToRelease;
+    }
+    snapshot_.reset();
+    input_.reset();
+    made_before_.reset();
+    prepared_.clear();
+    failure_.reset();
+    project_.clear();
+    shown_.clear();
+    ++snapshot_changes_;
+}
+
+void Document::take_opened() {
+    static_cast<void>(opening_.poll());
+    std::optional<Opened> opened = opening_.take();
+    if (!opened && opening_.problem().empty())
+        return tell(make_message(MessageKind::Remark, "Cancelled"));
+    if (!opened) return fail(opening_.problem(), {});
+    try {
+        show(std::move(*opened));
+    } catch (const std::exception& error) {
+        fail(diagnostics_of(error).front(), {});
+    }
+}
+
+void Document::show(Opened opened) {
+    close();
+    ++opened_;
+    forget_messages();
+    project_ = opened.project;
+    input_ = std::move(opened.input);
+    prepared_ = opened.prepared.done;
+    runner_ = std::make_unique<SessionRunner>(std::move(opened.session), options_.wake);
+    variant_ = newest_variant(*runner_->snapshot(), opened.prepared.last);
+    take_snapshot();
+    for (const LogEntry& entry : snapshot_->log)
+        if (entry.result) tell_warnings(entry.edit, *entry.result);
+    const std::string what = opened.is_new ? "New project " : "Opened ";
+    made_before_ = std::move(opened.made_before);
+    const std::string from =
+        made_before_ ? ", which was made from " + made_before_->name() : std::string();
+    tell(make_message(MessageKind::Success, what + project_.string() + from));
+    for (const Message& remark : opened.remarks) tell_once(remark);
+}
+
+void Document::take_snapshot() {
+    const auto before = snapshot_;
+    snapshot_ = runner_->snapshot();
+    if (!before || !same_edits(*before, *snapshot_)) ++snapshot_changes_;
+    if (!before || before->history != snapshot_->history) shown_.follow(snapshot_, variant_);
+}
+
+void Document::show_variant(const std::string& variant) {
+    if (variant_ == variant || preparation_) return;
+    variant_ = variant;
+    drop_preview();
+    if (!runner_) return;
+    ++snapshot_changes_;
+    shown_.follow(snapshot_, variant_);
+}
+
+const EditInput* Document::stands_before() const {
+    const std::optional<EditInput>& input = shown_.input();
+    return input && is_earlier(*input) ? &*input : nullptr;
+}
+
+std::string Document::why_not_input() const {
+    const std::optional<EditInput>& input = shown_.input();
+    return input && input->has_pending ? "edits before it are pending: run them first" : "";
+}
+
+const Scene* Document::shown() const {
+    if (shown_.previewed() || strokes_.scene() == nullptr) return shown_.scene();
+    return strokes_.scene();
+}
+
+// --- requests
+
+std::string Document::why_not(RequestKind kind) const {
+    if (!runner_) return "no case is open";
+    if (is_opening()) return "another case is being opened";
+    if (strokes_.painting()) return "a stroke is being drawn";
+    if (preparation_) return "the model is being prepared";
+    for (const Request& request : requests_)
+        if (request.label.kind == RequestKind::Edit || request.label.kind == RequestKind::Output)
+            return request.label.what + " is running";
+    const bool writes = kind == RequestKind::Edit || kind == RequestKind::History;
+    return writes ? snapshot_->read_only_reason : "";
+}
+
+bool Document::begin_request(RequestKind kind) {
+    const std::string reason = why_not(kind);
+    if (!reason.empty()) {
+        tell(make_message(MessageKind::Remark, "Not now: " + reason));
+        return false;
+    }
+    failure_.reset();
+    cancel_preview();
+    shown_.pause();
+    return true;
+}
+
+void Document::end(const RequestEnd& end) {
+    if (end.label.kind == RequestKind::Edit) preparation_.reset();
+    if (end.errors.empty())
+        tell(make_message(MessageKind::Remark, "Cancelled"));
+    else
+        fail(end.errors.front(), end.label.operation);
+}
+
+void Document::enter(const LogEntry& entry) {
+    ++entered_;
+    drop_preview();
+    tell_entered(entry);
+}
+
+void Document::tell_entered(const LogEntry& entry) {
+    if (!entry.result) return;
+    tell(make_message(MessageKind::Success, changed_text(entry.edit, *entry.result)));
+    tell_warnings(entry.edit, *entry.result);
+}
+
+void Document::tell_warnings(const EditRecord& edit, const ResultRecord& result) {
+    for (Diagnostic warning : result.warnings) {
+        warning.operation = edit.operation;
+        if (edit.edit.id != 0) warning.edit = edit.edit.id;
+        tell(make_message(warning));
+    }
+}
+
+/// Unless it was told with the edits.
+void Document::tell_once(Message message) {
+    if (std::ranges::count(messages_, message.text, &Message::text) == 0) tell(std::move(message));
+}
+
+/// After pending edits were run.
+void Document::tell_run(const Snapshot& before) {
+    const std::vector<LogEntry> run = run_since(before, *snapshot_);
+    for (const LogEntry& entry : run)
+        if (entry.status == EditStatus::Stale)
+            tell(
+                make_message(MessageKind::Warning,
+                             readable(entry.edit.operation) + " no longer applies: " + entry.reason,
+                             entry.edit.operation));
+        else
+            tell_entered(entry);
+    tell(make_message(MessageKind::Success, "Ran " + counted(run.size(), "pending edit")));
+}
+
+void Document::apply(const std::string& operation, Arguments given, Step step) {
+    if (!begin_request(RequestKind::Edit)) return;
+    watch(runner_->apply(operation, std::move(given), {.step = step, .variant = variant_}),
+          edit_label(operation), [this](const LogEntry& entry) { enter(entry); });
+}
+
+void Document::change(EditId edit, Arguments given) {
+    if (!begin_request(RequestKind::Edit)) return;
+    watch(runner_->change_edit(edit, std::move(given)),
+          {.what = "Changing edit " + std::to_string(edit)},
+          [this](const LogEntry& entry) { enter(entry); });
+}
+
+void Document::remove(EditId edit) {
+    if (!begin_request(RequestKind::Edit)) return;
+    watch(runner_->remove_edit(edit), {.what = "Removing edit " + std::to_string(edit)},
+          [](const Nothing&) {});
+}
+
+void Document::undo() {
+    if (!begin_request(RequestKind::History)) return;
+    drop_preview();
+    watch(runner_->undo(), history_label("Undo"), [this, before = snapshot_](const Nothing&) {
+        tell_move("Undid ", edits_between(*before, *snapshot_));
+    });
+}
+
+void Document::redo() {
+    if (!begin_request(RequestKind::History)) return;
+    drop_preview();
+    watch(runner_->redo(), history_label("Redo"), [this, before = snapshot_](const Nothing&) {
+        tell_move("Redid ", edits_between(*before, *snapshot_));
+    });
+}
+
+void Document::jump(StateId state) {
+    if (!begin_request(RequestKind::History)) return;
+    drop_preview();
+    watch(runner_->jump(state), history_label("Switching state"),
+          [this](const Nothing&) { tell_move("Switched to another state", ""); });
+}
+
+void Document::tell_move(const std::string& verb, const std::string& edits) {
+    tell(make_message(MessageKind::Remark, verb + edits));
+}
+
+void Document::run_pending() {
+    if (!begin_request(RequestKind::Edit)) return;
+    watch(runner_->scene(variant_), {.what = "Running pending edits"},
+          [this, before = snapshot_](const Scene& scene) {
+              if (pending_count(*snapshot_, variant_) == 0) shown_.offer_newest(scene);
+              tell_run(*before);
+          });
+}
+
+void Document::set_note(EditRef edit, const std::string& note) {
+    if (!begin_request(RequestKind::History)) return;
+    auto task = runner_->submit([edit, note](Session& session, const Progress&) {
+        session.set_note(edit, note);
+        return Nothing{};
+    });
+    watch(std::move(task), history_label("Writing a note"), [](const Nothing&) {});
+}
+
+void Document::export_to(const std::filesystem::path& file) {
+    if (!begin_request(RequestKind::Output)) return;
+    try {
+        check_export_name(file);
+    } catch (const UsageError& error) {
+        return fail(error.what(), {});
+    }
+    const ExportFormat* format = row_that_writes(export_formats(), file.string());
+    const std::string unit = format == nullptr ? "" : ", in " + format->unit;
+    const auto write = [file, project = project_, variant = variant_](Session& session,
+                                                                      const Progress& progress) {
+        require_no_source(session, file);
+        const Scene scene = session.scene(variant, progress.part(0.0, 0.7));
+        PendingFiles files;
+        export_scene(files, file, scene,
+                     FlowSettings(stored_text(project, StoredText::Flow)).parameters(),
+                     progress.part(0.7, 1.0));
+        progress.check_cancelled();
+        files.commit();
+        return Nothing{};
+    };
+    const std::string done = "Exported " + file.string() + unit;
+    watch(runner_->submit(write), output_label("Export"),
+          [this, done](const Nothing&) { tell(make_message(MessageKind::Success, done)); });
+}
+
+void Document::save_copy(const std::filesystem::path& project) {
+    if (!begin_request(RequestKind::Output)) return;
+    watch(runner_->save_as(project), output_label("Saving a copy"),
+          [this, project](const Nothing&) {
+              tell(make_message(MessageKind::Success, "Saved a copy as " + project.string()));
+          });
+}
+
+void Document::write_table(const std::filesystem::path& file, const std::string& table) {
+    if (!begin_request(RequestKind::Output)) return;
+    const auto write = [file, table](Session& session, const Progress&) {
+        require_no_source(session, file);
+        PendingFiles files;
+        files.add_text(file, table);
+        files.commit();
+        return Nothing{};
+    };
+    const std::string done = "Exported " + file.string();
+    watch(runner_->submit(write), output_label("Export"),
+          [this, done](const Nothing&) { tell(make_message(MessageKind::Success, done)); });
+}
+
+// --- previews
+
+void Document::preview(const std::string& operation, Arguments given, Step step) {
+    if (!begin_request(RequestKind::Preview)) return;
+    watch(runner_->preview(operation, std::move(given), {.step = step, .variant = variant_}),
+          preview_label(readable(operation), operation),
+          [this](const Preview& preview) { show(preview); });
+}
+
+void Document::preview_change(EditId edit, Arguments given) {
+    if (!begin_request(RequestKind::Preview)) return;
+    watch(runner_->preview_change(edit, std::move(given)),
+          preview_label("edit " + std::to_string(edit), {}),
+          [this](const Preview& preview) { show(preview); });
+}
+
+void Document::show(const Preview& preview) {
+    shown_.show_preview(preview);
+    tell(make_message(MessageKind::Remark,
+                      "Preview of " + changed_text(preview.edit(), preview.result())));
+    tell_warnings(preview.edit(), preview.result());
+}
+
+void Document::commit_preview() {
+    if (!previewed() || !begin_request(RequestKind::Edit)) return;
+    watch(runner_->commit(*previewed()), edit_label(previewed()->edit().operation),
+          [this](const LogEntry& entry) { enter(entry); });
+}
+
+void Document::drop_preview() {
+    cancel_preview();
+    shown_.drop_preview();
+}
+
+/// That is being made.
+void Document::cancel_preview() {
+    const auto previews = [](const Request& request) {
+        return request.label.kind == RequestKind::Preview;
+    };
+    for (const Request& request : requests_)
+        if (previews(request)) request.run->cancel();
+    std::erase_if(requests_, previews);
+}
+
+// --- preparing
+
+ResumedRecipe Document::to_prepare(const std::string& purpose,
+                                   std::optional<Step> again_from) const {
+    const Scene* scene = newest() != nullptr ? newest() : current();
+    ResumedRecipe resumed = missing_entries(*snapshot_, input_, scene, purpose, prepared_);
+    if (again_from) resumed.rest = rest_from(*again_from, resumed);
+    return resumed;
+}
+
+void Document::prepare(const std::string& purpose, std::optional<Step> again_from,
+                       const std::optional<Recipe>& changed) {
+    if (!begin_request(RequestKind::Edit)) return;
+    const ResumedRecipe resumed = to_prepare(purpose, again_from);
+    if (!resumed.refusal.empty()) return fail(resumed.refusal, {});
+    show_variant(purpose);
+    drop_preview();
+    for (const std::string& remark : resumed.remarks) tell(make_message(plain_text(remark)));
+    if (resumed.rest.empty()) return end_at_once(purpose, all_made_text(resumed));
+    preparation_ = Preparation{.recipe = changed.value_or(resumed.rest),
+                               .purpose = purpose,
+                               .project = project_,
+                               .warnings = resumed.remarks.size()};
+    if (again_from) return leave_out(own_edits_from(*again_from, *snapshot_, purpose));
+    prepare_next();
+}
+
+/// Nothing is missing of the purpose's model.
+void Document::end_at_once(const std::string& purpose, const std::string& text) {
+    auto task =
+        runner_->submit([project = project_, purpose](Session& /*session*/, const Progress&) {
+            end_purpose(project, purpose);
+            return Nothing{};
+        });
+    watch(std::move(task), {.what = "Looking for missing edits"},
+          [this, purpose, text](const Nothing&) {
+              if (std::ranges::count(prepared_, purpose) == 0) prepared_.push_back(purpose);
+              tell(make_message(MessageKind::Success, readable_sentence(text)));
+              if (pending_count(*snapshot_, variant_) > 0) run_pending();
+          });
+}
+
+/// Before they are made again.
+void Document::leave_out(const std::vector<EditId>& edits) {
+    auto task = runner_->submit([edits](Session& session, const Progress&) {
+        for (const EditId edit : edits) session.remove_edit(edit);
+        return Nothing{};
+    });
+    watch(std::move(task), {.what = "Leaving out " + counted(edits.size(), "edit")},
+          [this](const Nothing&) { prepare_next(); });
+}
+
+void Document::prepare_next() {
+    if (preparation_->cancelled) {
+        preparation_.reset();
+        return tell(make_message(MessageKind::Remark, "Cancelled"));
+    }
+    if (preparation_->done()) return end_preparation();
+    shown_.pause();
+    const auto messages = std::make_shared<RecipeMessages>();
+    watch(preparation_->start(*runner_, messages), edit_label(preparation_->operation()),
+          [this, messages](const Nothing&) { end_entry(*messages); });
+}
+
+void Document::end_entry(RecipeMessages& messages) {
+    const LogEntry* made = newest_edit(*snapshot_, preparation_->operation());
+    for (Message& message : messages.take()) {
+        const bool warns = message.kind == MessageKind::Warning;
+        if (warns) ++preparation_->warnings;
+        if (warns && made != nullptr) message.edit = made->edit.edit.id;
+        tell(std::move(message));
+    }
+    ++preparation_->next;
+    prepare_next();
+}
+
+/// Edits that were made before it may follow the recipe's.
+void Document::end_preparation() {
+    const Preparation done = *std::exchange(preparation_, std::nullopt);
+    if (std::ranges::count(prepared_, done.purpose) == 0) prepared_.push_back(done.purpose);
+    std::string model = find_purpose(done.purpose).title;
+    model[0] = static_cast<char>(std::tolower(model[0]));
+    const std::string text = "Prepared the " + model;
+    if (done.warnings == 0)
+        tell(make_message(MessageKind::Success, text));
+    else
+        tell(make_message(MessageKind::Warning,
+                          text + " with " + counted(done.warnings, "warning")));
+    if (pending_count(*snapshot_, variant_) > 0) run_pending();
+}
+
+// --- strokes of a brush
+
+bool Document::can_paint() const {
+    const Scene* scene = current();
+    return scene != nullptr && scene->surface && !previewed() && !is_opening() &&
+           snapshot_->read_only_reason.empty() && requests_.empty() && !is_reading() &&
+           why_not_input().empty();
+}
+
+void Document::begin_stroke(StrokeRequest request, Step step) {
+    if (!can_paint() || is_painting() || !begin_request(RequestKind::Edit)) return;
+    strokes_.begin(*runner_, std::move(request), {.step = step, .variant = variant_});
+}
+
+void Document::drop_stroke() {
+    if (!is_painting()) return;
+    strokes_.drop();
+    ++dropped_strokes_;
+}
+
+void Document::end(const EndedStroke& stroke) {
+    if (stroke.entry) {
+        if (stroke.scene && stroke.entry->result)
+            shown_.offer(stroke.entry->result->id, *stroke.scene);
+        return tell_entered(*stroke.entry);
+    }
+    if (stroke.cancelled) tell(make_message(MessageKind::Remark, "Cancelled"));
+    if (!stroke.error.empty()) fail(stroke.error, stroke.operation);
+    ++dropped_strokes_;
+}
+
+// --- progress and messages
+
+std::optional<Activity> Document::activity() const {
+    if (is_opening()) {
+        const TaskProgress progress = opening_.progress();
+        return Activity{progress.what.empty() ? "opening" : progress.what, progress.fraction};
+    }
+    if (!requests_.empty()) {
+        const Request& request = requests_.front();
+        const TaskProgress progress = request.run->progress();
+        const std::string& name = request.label.what;
+        const bool same = progress.what.empty() || progress.what == name;
+        const std::string what = same ? name : name + ": " + progress.what;
+        if (!preparation_) return Activity{what, progress.fraction};
+        const auto done = static_cast<double>(preparation_->next);
+        return Activity{"Preparing: " + what, (done + progress.fraction) /
+                                                  static_cast<double>(preparation_->recipe.size())};
+    }
+    if (const LiveStroke* stroke = strokes_.entering())
+        return Activity{stroke->operation(), stroke->progress().fraction};
+    return std::nullopt;
+}
+
+void Document::cancel() {
+    strokes_.cancel();
+    opening_.cancel();
+    for (const Request& request : requests_) request.run->cancel();
+    // Its running entry may be entered before it can be stopped.
+    if (preparation_) preparation_->cancelled = true;
+}
+
+void Document::tell(Message message) {
+    ++message_changes_;
+    messages_.push_back(std::move(message));
+    if (messages_.size() <= kMostMessages) return;
+    messages_.pop_front();
+    if (other_messages_ > 0) --other_messages_;
+}
+
+/// Those about the case before.
+void Document::forget_messages() {
+    messages_.erase(messages_.begin(),
+                    messages_.begin() + static_cast<std::ptrdiff_t>(other_messages_));
+    other_messages_ = 0;
+}
+
+void Document::fail(const std::string& text, const std::string& operation) {
+    failure_ = make_message(MessageKind::Error, text, operation);
+    tell(*failure_);
+}
+
+void Document::fail(Diagnostic error, const std::string& operation) {
+    if (error.code == kPlainText) return fail(text_of(error), operation);
+    if (error.operation.empty()) error.operation = operation;
+    failure_ = make_message(error);
+    tell(*failure_);
+}
+
+}  // namespace vesselbench

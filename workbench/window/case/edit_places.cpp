@@ -1,0 +1,50 @@
+#include "workbench/window/case/edit_places.h"
+
+#include "workbench/operations/shared/opening_arguments.h"
+#include "workbench/operations/table.h"
+#include "workbench/window/case/pick_target.h"
+
+namespace vesselbench {
+
+namespace {
+
+constexpr std::size_t kDabNumbers = 10;  ///< of a dab in `dabs`
+
+/// Empty if it is not given.
+std::vector<double> list_in(const Operation& operation, const Arguments& arguments,
+                            Meaning meaning) {
+    const Parameter* parameter = parameter_of(operation, meaning);
+    return parameter != nullptr && arguments.has(parameter->name) ? arguments.list(parameter->name)
+                                                                  : std::vector<double>();
+}
+
+/// Points that the user can pick.
+Positions points_in(const Operation& operation, const Arguments& arguments) {
+    Positions points;
+    for (const Parameter& parameter : operation.parameters)
+        if (parameter.type == ParameterType::Point && arguments.has(parameter.name) &&
+            pick_target(parameter))
+            points.push_back(arguments.point(parameter.name));
+    return points;
+}
+
+}  // namespace
+
+Positions places_of_edit(const LogEntry& entry) {
+    const Operation* known = known_operation(entry.edit.operation);
+    if (known == nullptr) return {};
+    const Operation& operation = *known;
+    const Arguments& arguments = entry.result ? entry.result->resolved : entry.edit.given;
+    const std::vector<double> dabs = list_in(operation, arguments, Meaning::Dabs);
+    if (dabs.size() >= kDabNumbers) {
+        const std::size_t middle = dabs.size() / kDabNumbers / 2 * kDabNumbers;
+        return {{dabs[middle], dabs[middle + 1], dabs[middle + 2]}};
+    }
+    Positions places;
+    for (const PlannedOpening& opening :
+         openings_in(list_in(operation, arguments, Meaning::Planes)))
+        places.push_back(opening.place.plane.point);
+    return places.empty() ? points_in(operation, arguments) : places;
+}
+
+}  // namespace vesselbench

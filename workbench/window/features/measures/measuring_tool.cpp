@@ -1,0 +1,124 @@
+#include "workbench/window/features/measures/measuring_tool.h"
+
+#include <utility>
+
+#include <imgui.h>
+
+#include "geometry/kernel/errors.h"
+#include "workbench/report/measure_table.h"
+#include "workbench/window/core/shown.h"
+#include "workbench/window/drawing/model_drawing.h"
+#include "workbench/window/style/icons.h"
+#include "workbench/window/widgets/controls.h"
+#include "workbench/window/widgets/ui.h"
+#include "workbench/window/workplace/workplace.h"
+
+namespace vesselbench {
+
+namespace {
+
+VesselDiameter diameter_or_throw(const Surface& surface, const CenterlineGraph& graph,
+                                 const Vec3& point) {
+    const auto found = vessel_diameter(surface, graph, point);
+    if (!found) throw AlgorithmFailure("there is no centerline to measure at");
+    return *found;
+}
+
+}  // namespace
+
+MeasuringTool::MeasuringTool(Renderer& renderer, std::function<void()> wake)
+    : picker_(renderer), wake_(wake), search_(std::move(wake)) {}
+
+void MeasuringTool::forget() {
+    clicks_.clear();
+    places_.clear();
+    picker_.forget();
+    search_.forget();
+}
+
+void MeasuringTool::update(PanelContext& c, const SeenModel& seen) {
+    const Document& document = c.place.document;
+    if (tool_ != c.place.view.tool || seen_scenes_ != document.scene_changes()) forget();
+    tool_ = c.place.view.tool;
+    seen_scenes_ = document.scene_changes();
+    if (search_.poll())
+        if (const auto found = search_.take())
+            c.place.measures.add(*found, c.place.measured_model(MeasuredOn::Surface));
+    if (const auto picked = picker_.result()) take(c, *picked);
+    if (c.place.is_measuring() && seen.surface != nullptr && seen.clicked) add_click(seen);
+    search_click();
+    search_diameter(c);
+    if (picker_.pending() && wake_) wake_();
+}
+
+void MeasuringTool::add_click(const SeenModel& seen) {
+    clicks_.push_back({seen.view, seen.layers, seen.screen.device_pixel(mouse_pixel())});
+}
+
+/// One after the other: a request would forget the one before.
+void MeasuringTool::search_click() {
+    if (clicks_.empty() || picker_.pending()) return;
+    const Click& click = clicks_.front();
+    picker_.request(click.view, click.layers, click.pixel.x(), click.pixel.y());
+    clicks_.pop_front();
+}
+
+void MeasuringTool::take(PanelContext& c, const Picked& picked) {
+    if (picked.layer != kModelLayer) return;
+    if (tool_ == MeasureTool::Distance)
+        c.place.measures.click(picked.point, c.place.measured_model(MeasuredOn::Surface));
+    if (tool_ == MeasureTool::Diameter) places_.push_back(picked.point);
+}
+
+/// Those clicked before the centerlines are known wait for them.
+void MeasuringTool::search_diameter(const PanelContext& c) {
+    const ViewData& data = c.place.view_data();
+    const Scene* scene = c.place.document.shown();
+    if (places_.empty() || search_.pending() || data.finds_centerlines()) return;
+    const auto& lines = data.centerlines();
+    if (!lines || scene == nullptr || !scene->surface) return places_.clear();
+    search_.forget();
+    search_.start([surface = *scene->surface, lines, point = places_.front()](const Progress&) {
+        return diameter_or_throw(surface, *lines, point);
+    });
+    places_.pop_front();
+}
+
+std::string MeasuringTool::words(const PanelContext& c) const {
+    const ViewData& data = c.place.view_data();
+    if (tool_ == MeasureTool::Diameter) {
+        if (data.finds_centerlines()) return "Finding the centerlines";
+        if (!data.centerlines_problem().empty()) return data.centerlines_problem();
+        if (!search_.problem().empty()) return search_.problem();
+        return "Diameter: click a vessel";
+    }
+    const MeasureList& measures = c.place.measures;
+    if (measures.lengthens())
+        return measure_text(measures.all().back()) + ": click further points, or +";
+    return measures.first_point() ? "Click another point" : "Distance: click a point";
+}
+
+void MeasuringTool::draw_strip(PanelContext& c, ViewStrips& strips) {
+    if (tool_ == MeasureTool::None) return;
+    const Ui& ui = c.ui;
+    const float side = ImGui::GetFrameHeight(), gap = ui.grid(0.75F);
+    const float wide = strips.begin(ui, "measure", ui.em * 22);
+    const float left = ImGui::GetCursorPosX();
+    ImGui::SetCursorPosX(left + gap);
+    ImGui::AlignTextToFramePadding();
+    clipped_text(ui, words(c), ui.theme.text, wide - 3 * side - 4 * gap);
+    ImGui::SameLine(left + wide - 3 * side - 2 * gap);
+    MeasureList& measures = c.place.measures;
+    if (icon_button(c.ui, "measure.next", icons::kPlus, "The next click begins another distance",
+                    measures.lengthens()))
+        measures.begin_next();
+    ViewStrips::next(ui);
+    if (icon_button(c.ui, "measure.clear", icons::kDelete, "Remove the last measure",
+                    measures.can_take_back()))
+        measures.take_back();
+    ViewStrips::next(ui);
+    if (icon_button(c.ui, "measure.close", icons::kClose, "Stop measuring  Esc"))
+        c.place.view.tool = MeasureTool::None;
+}
+
+}  // namespace vesselbench
