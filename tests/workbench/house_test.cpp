@@ -217,8 +217,9 @@ const std::map<std::string, Names> kDoors = {
       "workbench/window/workplace"}},
     {"workbench/window/app",
      {"geometry/kernel", "gpu", "workbench/window/widgets", "workbench/window/case",
-      "workbench/window/core", "workbench/window/features/history", "workbench/window/workplace",
-      "workbench/window/panels", "workbench/window/view"}},
+      "workbench/window/core", "workbench/window/features/borders",
+      "workbench/window/features/history", "workbench/window/workplace", "workbench/window/panels",
+      "workbench/window/view"}},
     {"workbench/window/shell",
      {"geometry/kernel", "gpu", "workbench/window/keys", "workbench/window/app"}},
     {"workbench/commands", {"geometry", "smoothing/quality", "gpu", "workbench"}}};

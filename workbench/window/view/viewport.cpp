@@ -8,6 +8,7 @@
 
 #include "gpu/render/renderer.h"
 #include "workbench/window/core/layout.h"
+#include "workbench/window/core/shown.h"
 #include "workbench/window/drawing/drawing_guard.h"
 #include "workbench/window/drawing/view_overlays.h"
 #include "workbench/window/drawing/view_strips.h"

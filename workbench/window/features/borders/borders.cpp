@@ -53,6 +53,8 @@ void click(PanelContext& c, const Border& border) {
         c.shown.enlarged = Enlarged::None;
     else if (border.panel != Panel::Slices)
         size.folded = !size.folded;
+    else if (ImGui::GetIO().MouseClickedLastCount[ImGuiMouseButton_Left] > 1)
+        size.share.reset();
 }
 
 void draw_grip(const Ui& ui, const Border& border, bool lit) {
@@ -78,10 +80,7 @@ void draw_border(PanelContext& c, const Border& border) {
     const bool still =
         ImGui::GetIO().MouseDragMaxDistanceSqr[ImGuiMouseButton_Left] < kStill * kStill;
     if (active && !still) drag(c, border);
-    if (over && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
-        c.place.settings.panels[border.panel] = {};
-    else if (ImGui::IsItemDeactivated() && still && over)
-        click(c, border);
+    if (ImGui::IsItemDeactivated() && still && over) click(c, border);
     if (ImGui::IsItemDeactivated()) c.place.settings.save_soon();
     if (over || active)
         ImGui::SetMouseCursor(border.upright ? ImGuiMouseCursor_ResizeEW

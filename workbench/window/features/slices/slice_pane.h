@@ -5,6 +5,7 @@
 #include "gpu/render/renderer.h"
 #include "gpu/render/target.h"
 #include "workbench/window/core/panel_context.h"
+#include "workbench/window/core/panel_sizes.h"
 #include "workbench/window/drawing/drawing_guard.h"
 #include "workbench/window/drawing/pixel_view.h"
 #include "workbench/window/features/slices/slice_crop.h"
