@@ -10,7 +10,9 @@
 #include "workbench/window/drawing/drawing_guard.h"
 #include "workbench/window/drawing/view_overlays.h"
 #include "workbench/window/drawing/view_strips.h"
+#include "workbench/window/features/brush/brush_feature.h"
 #include "workbench/window/features/brush/brush_pointer.h"
+#include "workbench/window/features/gallery/gallery_feature.h"
 #include "workbench/window/features/gallery/spot_picker.h"
 #include "workbench/window/features/handles/view_handles.h"
 #include "workbench/window/features/live/drive_control.h"
@@ -203,7 +205,7 @@ bool Viewport::Impl::handle_gallery(PanelContext& c) {
     if (over && gallery.magnifies()) gallery.zoom(ImGui::GetIO().MouseWheel);
     const bool taken =
         over && !c.place.is_measuring() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
-    if (taken) c.place.take_suggestion(*cell);
+    if (taken) c.place.get<GalleryFeature>().take(*cell);
     return pressed_spot || taken || (over && gallery.magnifies() && !ImGui::IsItemActive());
 }
 
@@ -212,9 +214,9 @@ void Viewport::Impl::handle_mouse(PanelContext& c) {
     camera.handle_drag(screen(), mouse_on_model(), !brush.holds_left() && !handles.holds_left());
     if (!ImGui::IsItemHovered()) return;
     camera.handle_wheel(screen(), mouse_on_model(), c.place.view.clip);
-    const bool busy = c.place.can_paint() || c.place.view.tool != MeasureTool::None ||
-                      camera.is_inside() || places.took_click() || handles.has_cursor() ||
-                      ends.has_cursor();
+    const bool busy = c.place.get<BrushFeature>().can_paint() ||
+                      c.place.view.tool != MeasureTool::None || camera.is_inside() ||
+                      places.took_click() || handles.has_cursor() || ends.has_cursor();
     if (busy || !scene.is_drawn() || !ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) return;
     look();
     camera.request_centre(scene.scene_view(c.ui), scene.layers(c.ui),
