@@ -9,6 +9,7 @@
 #include "tests/support/shapes.h"
 #include "tests/window/faulty_device.h"
 #include "tests/window/window_support.h"
+#include "workbench/window/features/brush/brush_feature.h"
 #include "workbench/window/keys/keys.h"
 
 using namespace vesselbench;
@@ -201,19 +202,19 @@ SCENARIO("Keys over the view change the brush", "[window][strokes]") {
     Painting painting("brush-weight");
     if (!painting.shell) return;
     const Workplace& place = painting.shell->app().place();
-    const BrushTip tip = place.tip();
+    const BrushTip tip = place.get<BrushFeature>().tip();
     CHECK(tip.radius > 0.5);
     painting.shell->press_key(keys::kRightBracket);
-    CHECK(place.tip() == after_key(tip, BrushKey::Larger));
+    CHECK(place.get<BrushFeature>().tip() == after_key(tip, BrushKey::Larger));
     painting.shell->press_key(keys::kLeftBracket, {.shift = true});
-    CHECK(place.tip().strength == Approx(tip.strength - 0.05));
+    CHECK(place.get<BrushFeature>().tip().strength == Approx(tip.strength - 0.05));
     painting.stroke();
     const Surface& surface = *painting.document().shown()->surface;
     REQUIRE(surface.attributes.contains("painted_weight"));
     CHECK(std::ranges::max(*surface.attributes.at("painted_weight")) > 0.4);
     THEN("another brush has the same size") {
-        const double radius = place.tip().radius;
+        const double radius = place.get<BrushFeature>().tip().radius;
         painting.shell->app().place().choose("brush-inflate");
-        CHECK(place.tip().radius == radius);
+        CHECK(place.get<BrushFeature>().tip().radius == radius);
     }
 }

@@ -12,6 +12,7 @@
 #include "tests/support/shapes.h"
 #include "tests/window/faulty_device.h"
 #include "tests/window/window_support.h"
+#include "workbench/window/features/compare/compare_feature.h"
 #include "workbench/window/keys/keys.h"
 
 using namespace vesselbench;
@@ -60,9 +61,9 @@ SCENARIO("A window is idle after its case was closed midway", "[window][closing]
     SECTION("while the reference of a comparison is laid out") {
         open_and_wait(*shell, tube_file(240));
         Workplace& place = shell->app().place();
-        place.compare(document.snapshot()->history->current());
+        place.get<CompareFeature>().compare(document.snapshot()->history->current());
         REQUIRE(shell->run_until([&] { return place.comparison()->scene() != nullptr; }, 60s));
-        place.stop_comparing();
+        place.get<CompareFeature>().stop();
         CHECK(shell->settle(20s));
         CHECK(settles_on_the_start_screen(*shell));
     }

@@ -18,9 +18,9 @@
 #include "tests/support/shapes.h"
 #include "tests/window/window_support.h"
 #include "workbench/session/task_thread.h"
+#include "workbench/window/case/history_tree.h"
 #include "workbench/window/case/rail.h"
 #include "workbench/window/case/request.h"
-#include "workbench/window/features/history/history_tree.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;

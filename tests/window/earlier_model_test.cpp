@@ -17,6 +17,9 @@
 #include "tests/support/shapes.h"
 #include "tests/window/window_support.h"
 #include "tests/window/workplace_updates.h"
+#include "workbench/window/features/brush/brush_feature.h"
+#include "workbench/window/features/gallery/gallery_feature.h"
+#include "workbench/window/features/openings/openings_feature.h"
 #include "workbench/window/workplace/workplace.h"
 
 using namespace vesselbench;
@@ -293,9 +296,9 @@ SCENARIO("The other end of a filled model becomes the inlet", "[window][earlier]
     const auto openings = measure_patches(desk.surface());
     const auto other = std::ranges::find(openings, PatchKind::Outlet, &PatchMeasures::kind);
     REQUIRE(other != openings.end());
-    desk.place.click_opening(*other);
-    REQUIRE(desk.place.role_question());
-    desk.place.give_role(PatchKind::Inlet);
+    desk.place.get<OpeningsFeature>().click(*other);
+    REQUIRE(desk.place.get<OpeningsFeature>().role_question());
+    desk.place.get<OpeningsFeature>().give_role(PatchKind::Inlet);
     desk.settle();
     REQUIRE(desk.document.stands_before() != nullptr);
     CHECK(desk.document.stands_before()->site.step == Step::Openings);
@@ -310,14 +313,14 @@ SCENARIO("The other end of a filled model becomes the inlet", "[window][earlier]
 SCENARIO("A brush paints in the step that it was chosen in", "[window][earlier]") {
     Desk desk = filled_tube();
     desk.place.choose("brush-inflate", Step::LocalRepair);
-    desk.place.set_tip({.radius = 2.0, .strength = 0.5});
-    CHECK_FALSE(desk.place.can_paint());  // the filled model is still seen
+    desk.place.get<BrushFeature>().set_tip({.radius = 2.0, .strength = 0.5});
+    CHECK_FALSE(desk.place.get<BrushFeature>().can_paint());  // the filled model is still seen
     desk.settle();
-    REQUIRE(desk.place.can_paint());
+    REQUIRE(desk.place.get<BrushFeature>().can_paint());
     CHECK(bounds(desk.surface()).max.z() == Approx(30.0));
     for (int stroke = 1; stroke <= 2; ++stroke) {
         const Positions before = desk.surface().points();
-        desk.place.begin_stroke({});
+        desk.place.get<BrushFeature>().begin_stroke({});
         desk.document.add_dab({.point = {4, 0, 15}, .normal = {1, 0, 0}});
         REQUIRE(desk.run_until([&] { return !desk.document.take_moves().empty(); }));
         desk.document.end_stroke();
@@ -326,7 +329,7 @@ SCENARIO("A brush paints in the step that it was chosen in", "[window][earlier]"
         CHECK(desk.surface().points().size() == before.size());
         CHECK(desk.surface().points() != before);
         REQUIRE(desk.document.stands_before() != nullptr);
-        CHECK(desk.place.can_paint());
+        CHECK(desk.place.get<BrushFeature>().can_paint());
     }
     desk.place.leave_form();
     desk.run_pending();
@@ -350,7 +353,7 @@ SCENARIO("An earlier edit that smooths is followed live, and has its gallery and
         CHECK(difference_text(live.shown()->state.surface, smoothed).empty());
     }
     THEN("the gallery and its spots are about the input") {
-        desk.place.show_gallery(GalleryMode::Spots);
+        desk.place.get<GalleryFeature>().show(GalleryMode::Spots);
         REQUIRE(desk.run_until([&] { return desk.place.gallery().original() != nullptr; }));
         CHECK(desk.place.gallery().mode() == GalleryMode::Spots);
         CHECK(desk.place.gallery().original()->positions == desk.surface().positions);

@@ -12,7 +12,10 @@
 #include "tests/window/window_support.h"
 #include "workbench/operations/table.h"
 #include "workbench/window/drawing/screen_places.h"
+#include "workbench/window/features/compare/compare_feature.h"
+#include "workbench/window/features/gallery/gallery_feature.h"
 #include "workbench/window/features/gallery/suggestion_gallery.h"
+#include "workbench/window/features/live/live_feature.h"
 #include "workbench/window/keys/keys.h"
 #include "workbench/worker/run_operation.h"
 
@@ -186,7 +189,7 @@ SCENARIO("Turning the view turns the three models alike", "[window][gallery]") {
     open_and_wait(*shell, noisy_tube_file(30));
     shell->app().place().choose("smooth");
     shell->frame();
-    shell->app().place().show_gallery(GalleryMode::Models);
+    shell->app().place().get<GalleryFeature>().show(GalleryMode::Models);
     REQUIRE(shell->run_until([&] { return knows_all(shell->app().place().gallery()); }, 120s));
     REQUIRE(shell->settle(60s));
     const auto parts = [&] {
@@ -252,15 +255,15 @@ SCENARIO("The button of a suggestion takes it, and the others stay known", "[win
         REQUIRE(window->click_item("operation.preview"));
         CHECK(gallery_of(*window).mode() == GalleryMode::Off);
         REQUIRE(window->wait_until_idle());
-        window->app().place().show_gallery(GalleryMode::Models);
+        window->app().place().get<GalleryFeature>().show(GalleryMode::Models);
         CHECK_FALSE(document_of(*window).previewed());
-        window->app().place().begin_driving();
+        window->app().place().get<LiveFeature>().begin_driving();
         CHECK(gallery_of(*window).mode() == GalleryMode::Off);
         window->app().place().end_drag();
-        window->app().place().show_gallery(GalleryMode::Models);
-        window->app().place().compare(0);
+        window->app().place().get<GalleryFeature>().show(GalleryMode::Models);
+        window->app().place().get<CompareFeature>().compare(0);
         CHECK(gallery_of(*window).mode() == GalleryMode::Off);
-        window->app().place().show_gallery(GalleryMode::Models);
+        window->app().place().get<GalleryFeature>().show(GalleryMode::Models);
         CHECK_FALSE(window->app().place().comparison());
     }
 }

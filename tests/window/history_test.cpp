@@ -4,7 +4,7 @@
 #include "tests/support/shapes.h"
 #include "tests/window/window_support.h"
 #include "workbench/operations/table.h"
-#include "workbench/window/features/history/history_tree.h"
+#include "workbench/window/case/history_tree.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;

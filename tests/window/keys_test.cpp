@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "tests/window/window_support.h"
+#include "workbench/window/features/compare/compare_feature.h"
 #include "workbench/window/keys/key_table.h"
 
 using namespace vesselbench;
@@ -131,7 +132,7 @@ SCENARIO("Space is the flight's before a comparison's, and no one's behind a dia
     REQUIRE(wait_until_idle(shell));
     const History& history = *document.snapshot()->history;
     const StateId reference = history.state(history.current()).parent;
-    window.place().compare(reference);
+    window.place().get<CompareFeature>().compare(reference);
     REQUIRE(shell.settle(60s));
     Comparison& comparison = *window.place().comparison();
     comparison.set_mode(CompareMode::Blink);

@@ -12,6 +12,7 @@
 #include "workbench/case/argument_texts.h"
 #include "workbench/operations/table.h"
 #include "workbench/report/log_json.h"
+#include "workbench/window/case/history_tree.h"
 #include "workbench/window/case/local_time.h"
 #include "workbench/window/case/message.h"
 #include "workbench/window/case/rail.h"
@@ -21,7 +22,6 @@
 #include "workbench/window/drawing/view_choice.h"
 #include "workbench/window/drawing/view_overlays.h"
 #include "workbench/window/features/history/history_columns.h"
-#include "workbench/window/features/history/history_tree.h"
 #include "workbench/window/panels/folder_listing.h"
 #include "workbench/window/widgets/controls.h"
 

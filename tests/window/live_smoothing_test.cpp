@@ -11,6 +11,7 @@
 #include "tests/window/walk_support.h"
 #include "tests/window/window_support.h"
 #include "workbench/operations/table.h"
+#include "workbench/window/features/live/live_feature.h"
 #include "workbench/window/keys/keys.h"
 
 using namespace vesselbench;
@@ -410,14 +411,14 @@ SCENARIO("Graphs and suggestions come with the live part of the form", "[window]
         REQUIRE(window->run_until(
             [&] { return curves_of(quality).back().current == 25 && quality.answer()->best; },
             120s));
-        CHECK(window->app().place().is_driving());
+        CHECK(window->app().place().get<LiveFeature>().is_driving());
         CHECK_FALSE(quality.answer()->complete);
         const double fewer = curves_of(quality).front().suggested;
         // The longer it smooths, the less of it is suggested.
         const ScreenRect view = window->app().ui().items().at("view.area").rect;
         window->move_mouse(view.middle_x() + 120, view.middle_y());
         REQUIRE(window->run_until([&] { return curves_of(quality).back().current == 35; }, 120s));
-        CHECK(window->app().place().is_driving());
+        CHECK(window->app().place().get<LiveFeature>().is_driving());
         CHECK(curves_of(quality).front().suggested <= fewer);
         window->move_mouse(view.middle_x() + 40, view.middle_y());
         window->release(MouseButton::Right);

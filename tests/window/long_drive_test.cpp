@@ -13,6 +13,7 @@
 #include "geometry/kernel/stopwatch.h"
 #include "tests/window/walk_support.h"
 #include "tests/window/window_support.h"
+#include "workbench/window/features/live/live_feature.h"
 #include "workbench/window/keys/keys.h"
 
 using namespace vesselbench;
@@ -86,7 +87,7 @@ SCENARIO("The right button is held for long", "[window][live][display]") {
     const double seconds = drive_seconds();
     const Drive drive = drive_for(*window, seconds);
     print(drive, seconds);
-    CHECK(place.is_driving());
+    CHECK(place.get<LiveFeature>().is_driving());
     CHECK(drive.models > 1);
     CHECK(drive.grown < kMostGrowth);
     CHECK(glGetError() == GL_NO_ERROR);

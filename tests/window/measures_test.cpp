@@ -11,6 +11,7 @@
 #include "workbench/report/measure_table.h"
 #include "workbench/window/drawing/screen_places.h"
 #include "workbench/window/features/measures/measure_list.h"
+#include "workbench/window/features/openings/openings_feature.h"
 #include "workbench/window/keys/keys.h"
 
 using namespace vesselbench;
@@ -24,7 +25,7 @@ const MeasuredModel kSurface{.on = MeasuredOn::Surface, .state = 1, .variant = "
 const MeasuredModel kSlice{.on = MeasuredOn::AxialSlice, .state = 1, .variant = "cfd"};
 
 MeasureList& measures_of(OffscreenShell& shell) {
-    return shell.app().place().measures;
+    return shell.app().place().measures();
 }
 
 std::string text_in(const std::string& file) {
@@ -216,7 +217,7 @@ SCENARIO("No click for a measure opens another tool", "[window][measures]") {
     for (const PatchMeasures& opening : shell->app().place().surface_places().openings) {
         INFO(opening.name);
         click_at(*shell, opening.centroid);
-        CHECK_FALSE(shell->app().place().role_question());
+        CHECK_FALSE(shell->app().place().get<OpeningsFeature>().role_question());
         CHECK_FALSE(shell->app().place().form());
     }
     CHECK(shell->app().place().is_measuring());

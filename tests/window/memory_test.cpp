@@ -10,6 +10,8 @@
 #include "tests/support/image_shapes.h"
 #include "tests/support/shapes.h"
 #include "tests/window/window_support.h"
+#include "workbench/window/features/compare/compare_feature.h"
+#include "workbench/window/features/extraction/extraction_feature.h"
 #include "workbench/window/keys/keys.h"
 
 using namespace vesselbench;
@@ -83,7 +85,7 @@ SCENARIO("A window holds nothing of a closed case", "[window][memory]") {
     SECTION("with a comparison") {
         place.document.apply("smooth", {{"iterations", Value(std::int64_t{1})}}, Step::Smoothing);
         REQUIRE(wait_until_idle(*shell));
-        place.compare(1);
+        place.get<CompareFeature>().compare(1);
         REQUIRE(shell->settle(60s));
     }
     REQUIRE(place.document.shown() != nullptr);
@@ -102,7 +104,7 @@ SCENARIO("A window holds nothing of a closed image", "[window][memory]") {
     open_and_wait(*shell, file);
     Workplace& place = shell->app().place();
     place.choose("extract-surface");
-    place.follow_extraction(true);
+    place.get<ExtractionFeature>().follow(true);
     REQUIRE(shell->settle(60s));
     REQUIRE(place.document.shown() != nullptr);
     const SceneParts parts(*place.document.shown());

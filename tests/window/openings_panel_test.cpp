@@ -21,6 +21,7 @@
 #include "tests/window/workplace_updates.h"
 #include "workbench/phantoms/phantom_json.h"
 #include "workbench/window/features/handles/cut_handles.h"
+#include "workbench/window/features/openings/openings_feature.h"
 #include "workbench/window/keys/keys.h"
 #include "workbench/window/workplace/workplace.h"
 
@@ -409,7 +410,7 @@ SCENARIO("The role that an opening has is the highlighted one", "[window][openin
     const auto patches = measure_patches(*place.document.shown()->surface);
     const auto inlet = std::ranges::find(patches, PatchKind::Inlet, &PatchMeasures::kind);
     REQUIRE(inlet != patches.end());
-    place.click_opening(*inlet);
+    place.get<OpeningsFeature>().click(*inlet);
     shell->frame();
     REQUIRE(shell->has("role.inlet"));
     REQUIRE(shell->click_item("role.inlet"));

@@ -166,12 +166,11 @@ void App::draw() {
     app.unfold_form();
     const Layout layout = app.layout();
     app.shown.compact = layout.compact;
-    PanelContext context{app.ui,
-                         app.place,
-                         app.shown,
-                         app.device,
-                         [](const std::string& text) { ImGui::SetClipboardText(text.c_str()); },
-                         app.thumbnails};
+    PanelContext context{
+        app.ui,        app.place,
+        app.place,     app.shown,
+        app.device,    [](const std::string& text) { ImGui::SetClipboardText(text.c_str()); },
+        app.thumbnails};
     handle_shortcuts(context);
     ImGui::GetBackgroundDrawList()->AddRectFilled({0, 0}, size, app.ui.theme.border);
     draw_tool_bar(context, layout.tool_bar);
@@ -202,13 +201,7 @@ void App::recover(const std::string& error) {
 }
 
 bool App::is_moving() const {
-    return impl_->moved || impl_->place.document.busy() || impl_->place.searches_places() ||
-           impl_->place.finds_field_values() || impl_->place.slices().pending() ||
-           impl_->place.is_comparing() || impl_->place.view_data().pending() ||
-           impl_->place.live().pending() || impl_->place.quality().pending() ||
-           impl_->place.gallery().pending() || impl_->place.extraction().pending() ||
-           impl_->place.openings().pending() || impl_->viewport.pending() ||
-           impl_->place.wants_picture() || impl_->place.measures.pending() ||
+    return impl_->moved || impl_->place.pending() || impl_->viewport.pending() ||
            impl_->thumbnails.pending() || impl_->files.pending();
 }
 

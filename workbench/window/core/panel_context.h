@@ -5,6 +5,7 @@
 
 namespace vesselbench {
 
+class Core;
 struct Shown;
 class Thumbnails;
 class Ui;
@@ -13,7 +14,8 @@ class Workplace;
 /// What panels draw from, and where their requests go.
 struct PanelContext {
     Ui& ui;
-    Workplace& place;
+    Core& core;        ///< for features
+    Workplace& place;  ///< the same, for what lies around them
     Shown& shown;
     std::string device;  ///< of OpenGL
     std::function<void(const std::string&)> to_clipboard;

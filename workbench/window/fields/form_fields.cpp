@@ -7,13 +7,13 @@
 
 #include "geometry/kernel/wording.h"
 #include "workbench/window/case/readable.h"
+#include "workbench/window/core/core.h"
 #include "workbench/window/core/shown.h"
 #include "workbench/window/fields/label_rows.h"
 #include "workbench/window/form/automatic_values.h"
 #include "workbench/window/style/icons.h"
 #include "workbench/window/widgets/controls.h"
 #include "workbench/window/widgets/ui.h"
-#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 
@@ -49,7 +49,7 @@ void edit_file(const FieldPanel& p, const FormField& field) {
     edit_text(p, field, ImGui::GetContentRegionAvail().x - side - gap);
     ImGui::SameLine(0, gap);
     if (icon_button(p.c.ui, p.item(field) + ".browse", icons::kFolder, "Choose a file"))
-        p.c.place.ask(FileQuestion::Parameter, name);
+        p.c.core.ask(FileQuestion::Parameter, name);
 }
 
 /// A place, with a button that lets it be picked in the view; listed labels need no text.
@@ -64,8 +64,8 @@ void edit_place(const FieldPanel& p, const FormField& field) {
         edit_text(p, field, width);
     ImGui::SameLine(left + width + gap);
     if (icon_button(p.c.ui, p.item(field) + ".pick", icons::kTarget, "Pick in the view", true,
-                    p.c.place.armed() == name))
-        p.c.place.arm(name);
+                    p.c.core.armed() == name))
+        p.c.core.arm(name);
 }
 
 /// What a choice shows while nothing is given: one of its texts, or that it is automatic.

@@ -9,9 +9,9 @@
 
 #include "geometry/kernel/wording.h"
 #include "gpu/colours.h"
+#include "workbench/window/core/core.h"
 #include "workbench/window/widgets/controls.h"
 #include "workbench/window/widgets/ui.h"
-#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 
@@ -43,7 +43,7 @@ void draw_row(PanelContext& c, const FormField& field, const std::vector<LabelRo
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() + side + c.ui.grid(1));
     bool taken = row.taken;
     if (checkbox(c.ui, "field." + parameter + "." + std::to_string(row.label), name_of(row), taken))
-        c.place.set_field(parameter, switched_label(rows, row.label));
+        c.core.set_field(parameter, switched_label(rows, row.label));
     draw_volume(c, row);
 }
 
@@ -51,11 +51,11 @@ void draw_row(PanelContext& c, const FormField& field, const std::vector<LabelRo
 
 bool lists_labels(const PanelContext& c, const FormField& field) {
     return field.parameter->meaning == Meaning::Labels && field.error.empty() &&
-           !c.place.labels().rows(field).empty();
+           !c.core.labels().rows(field).empty();
 }
 
 void draw_label_count(PanelContext& c, const FormField& field) {
-    const std::vector<LabelRow> rows = c.place.labels().rows(field);
+    const std::vector<LabelRow> rows = c.core.labels().rows(field);
     const auto taken = std::ranges::count(rows, true, &LabelRow::taken);
     ImGui::AlignTextToFramePadding();
     text(c.ui, std::to_string(taken) + " of " + std::to_string(rows.size()),
@@ -63,7 +63,7 @@ void draw_label_count(PanelContext& c, const FormField& field) {
 }
 
 void draw_label_rows(PanelContext& c, const FormField& field) {
-    const std::vector<LabelRow> rows = c.place.labels().rows(field);
+    const std::vector<LabelRow> rows = c.core.labels().rows(field);
     const float height = ImGui::GetFrameHeightWithSpacing();
     ImGui::BeginChild("labels", {0, std::min(static_cast<float>(rows.size()), kMostRows) * height});
     for (const LabelRow& row : rows) draw_row(c, field, rows, row);

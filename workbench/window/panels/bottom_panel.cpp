@@ -52,7 +52,7 @@ void draw_bottom_panel(PanelContext& c, const ScreenRect& rect) {
     draw_tab(c, "tab.messages", icons::kMessages, message_label(c.place.document),
              BottomTab::Messages);
     ImGui::SameLine();
-    draw_tab(c, "tab.measures", icons::kRuler, measure_label(c.place.measures),
+    draw_tab(c, "tab.measures", icons::kRuler, measure_label(c.place.measures()),
              BottomTab::Measures);
     ImGui::SetCursorPosY(ImGui::GetCursorPosY() - c.ui.grid(0.5F));
     separator(c.ui);

@@ -8,8 +8,10 @@
 #include "workbench/operations/table.h"
 #include "workbench/window/case/readable.h"
 #include "workbench/window/core/shown.h"
+#include "workbench/window/features/brush/brush_feature.h"
 #include "workbench/window/features/brush/brush_form.h"
 #include "workbench/window/features/extraction/extraction_panel.h"
+#include "workbench/window/features/handles/handles_feature.h"
 #include "workbench/window/features/openings/openings_panel.h"
 #include "workbench/window/fields/form_fields.h"
 #include "workbench/window/form/field_text.h"
@@ -163,11 +165,11 @@ void draw_advice(PanelContext& c, const OperationForm& form, const Parameter* pa
     const std::string waiting = c.place.document.why_not_input();
     if (is_brush(form.operation()) && !waiting.empty())
         return wrapped(c.ui, "Nothing can be painted: " + waiting, c.ui.theme.warning);
-    if (c.place.offered_box())
+    if (c.place.get<HandlesFeature>().offered_box())
         return wrapped(c.ui, "Drag the handles of the box, or a rectangle in a slice.",
                        c.ui.theme.muted);
     wrapped(c.ui,
-            c.place.can_paint()
+            c.place.get<BrushFeature>().can_paint()
                 ? "Drag on the surface to brush: each drag is an edit. [ and ] change the radius, "
                   "with Shift the strength; Shift while dragging smooths, Ctrl inverts."
                 : "Point at a field to read about it. Empty fields take their defaults.",

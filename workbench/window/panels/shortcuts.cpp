@@ -3,6 +3,9 @@
 #include <imgui.h>
 
 #include "workbench/window/core/shown.h"
+#include "workbench/window/features/compare/compare_feature.h"
+#include "workbench/window/features/gallery/gallery_feature.h"
+#include "workbench/window/features/openings/openings_feature.h"
 #include "workbench/window/keys/key_table.h"
 #include "workbench/window/panels/view_panel.h"
 #include "workbench/window/workplace/workplace.h"
@@ -54,16 +57,6 @@ KeyCommands pressed_keys(const PanelContext& c) {
     return keys;
 }
 
-/// \return false if there is none
-bool leave_gallery(SuggestionGallery& gallery) {
-    if (gallery.mode() == GalleryMode::Off) return false;
-    if (gallery.picks() && !gallery.spots.all().empty())
-        gallery.pick(false);
-    else
-        gallery.show(GalleryMode::Off);
-    return true;
-}
-
 void handle_escape(PanelContext& c) {
     if (c.shown.help || c.shown.prepare || c.shown.note) {
         c.shown.help = c.shown.prepare = false;
@@ -76,28 +69,21 @@ void handle_escape(PanelContext& c) {
         c.place.document.drop_stroke();
     } else if (c.place.before_drag()) {
         c.place.cancel_drag();
-    } else if (c.place.role_question()) {
-        c.place.forget_role_question();
+    } else if (c.place.get<OpeningsFeature>().role_question()) {
+        c.place.get<OpeningsFeature>().forget_role_question();
     } else if (!c.place.armed().empty()) {
         c.place.disarm();
     } else if (leave_view_mode(c)) {
         return;
     } else if (c.place.document.activity()) {
         c.place.document.cancel();
-    } else if (leave_gallery(c.place.gallery())) {
+    } else if (c.place.get<GalleryFeature>().leave()) {
         return;
     } else if (c.place.comparison()) {
-        c.place.stop_comparing();
+        c.place.get<CompareFeature>().stop();
     } else if (!c.place.take_back_drag()) {
         c.place.leave_form();
     }
-}
-
-void handle_history(PanelContext& c) {
-    if (!c.place.document.can(RequestKind::History)) return;
-    const HistoryTree& history = c.place.history();
-    if (c.shown.keys.has(KeyCommand::Undo) && history.can_undo) c.place.document.undo();
-    if (c.shown.keys.has(KeyCommand::Redo) && history.can_redo) c.place.document.redo();
 }
 
 void handle_files(PanelContext& c) {
@@ -106,14 +92,6 @@ void handle_files(PanelContext& c) {
     if (keys.has(KeyCommand::Open)) c.place.ask(FileQuestion::Open);
     if (keys.has(KeyCommand::SaveCopy) && writes) c.place.ask(FileQuestion::SaveCopy);
     if (keys.has(KeyCommand::Export) && writes) c.place.ask(FileQuestion::Export);
-}
-
-/// The image: its slices, or its planes in the 3D view.
-void handle_image(PanelContext& c) {
-    ImageSlices& slices = c.place.slices();
-    if (!slices.has_image()) return;
-    if (c.shown.keys.has(KeyCommand::SlicePlanes)) slices.show_in_space(!slices.any_in_space());
-    if (c.shown.keys.has(KeyCommand::SliceRow)) slices.show_row(!slices.in_row());
 }
 
 void handle_text_size(PanelContext& c) {
@@ -133,13 +111,10 @@ void handle_shortcuts(PanelContext& c) {
     if (keys.has(KeyCommand::Help)) c.shown.help = !c.shown.help;
     if (keys.has(KeyCommand::Cancel)) handle_escape(c);
     handle_text_size(c);
-    handle_history(c);
     handle_files(c);
     if (keys.has(KeyCommand::Preview)) c.place.preview();
     if (keys.has(KeyCommand::Apply)) c.place.apply();
-    if (keys.has(KeyCommand::Gallery)) c.place.show_gallery(GalleryMode::Models);
-    if (keys.has(KeyCommand::Spots)) c.place.show_gallery(GalleryMode::Spots);
-    handle_image(c);
+    for (const auto& feature : c.place.features.all()) feature->keys(c);
     handle_view_keys(c);
 }
 

@@ -8,6 +8,7 @@
 #include "geometry/kernel/wording.h"
 #include "workbench/window/case/readable.h"
 #include "workbench/window/core/shown.h"
+#include "workbench/window/features/colours/colours_feature.h"
 #include "workbench/window/keys/key_table.h"
 #include "workbench/window/style/icons.h"
 #include "workbench/window/widgets/controls.h"
@@ -92,7 +93,7 @@ void draw_colours(PanelContext& c) {
                {.icon = icons::kTarget,
                 .width = ImGui::GetContentRegionAvail().x,
                 .help = "Shows the worst places of these colours in turn  X, back Shift+X"}))
-        c.place.look_at_worst(1);
+        c.place.get<ColoursFeature>().look_at_worst(1);
 }
 
 void draw_key(const Ui& ui, KeyCommand command, float row) {
@@ -212,8 +213,6 @@ void handle_view_keys(PanelContext& c) {
     if (keys.has(KeyCommand::Flight)) view.flies = !view.flies;
     if (keys.has(KeyCommand::Distance)) toggle(view.tool, MeasureTool::Distance);
     if (keys.has(KeyCommand::Diameter)) toggle(view.tool, MeasureTool::Diameter);
-    if (keys.has(KeyCommand::NextWorst)) c.place.look_at_worst(1);
-    if (keys.has(KeyCommand::PreviousWorst)) c.place.look_at_worst(-1);
     if (keys.has(KeyCommand::Picture)) c.place.ask(FileQuestion::Picture);
 }
 

@@ -6,6 +6,7 @@
 
 #include "gpu/device.h"
 #include "workbench/window/core/shown.h"
+#include "workbench/window/features/brush/brush_form.h"
 #include "workbench/window/widgets/ui.h"
 #include "workbench/window/workplace/workplace.h"
 

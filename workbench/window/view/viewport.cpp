@@ -13,7 +13,9 @@
 #include "workbench/window/drawing/view_overlays.h"
 #include "workbench/window/drawing/view_strips.h"
 #include "workbench/window/features/borders/borders.h"
+#include "workbench/window/features/brush/brush_feature.h"
 #include "workbench/window/features/brush/brush_pointer.h"
+#include "workbench/window/features/gallery/gallery_feature.h"
 #include "workbench/window/features/gallery/spot_picker.h"
 #include "workbench/window/features/handles/view_handles.h"
 #include "workbench/window/features/live/drive_control.h"
@@ -206,7 +208,7 @@ bool Viewport::Impl::handle_gallery(PanelContext& c) {
     if (over && gallery.magnifies()) gallery.zoom(ImGui::GetIO().MouseWheel);
     const bool taken =
         over && !c.place.is_measuring() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
-    if (taken) c.place.take_suggestion(*cell);
+    if (taken) c.place.get<GalleryFeature>().take(*cell);
     return pressed_spot || taken || (over && gallery.magnifies() && !ImGui::IsItemActive());
 }
 
@@ -215,9 +217,9 @@ void Viewport::Impl::handle_mouse(PanelContext& c) {
     camera.handle_drag(screen(), mouse_on_model(), !brush.holds_left() && !handles.holds_left());
     if (!ImGui::IsItemHovered()) return;
     camera.handle_wheel(screen(), mouse_on_model(), c.place.view.clip);
-    const bool busy = c.place.can_paint() || c.place.view.tool != MeasureTool::None ||
-                      camera.is_inside() || places.took_click() || handles.has_cursor() ||
-                      ends.has_cursor();
+    const bool busy = c.place.get<BrushFeature>().can_paint() ||
+                      c.place.view.tool != MeasureTool::None || camera.is_inside() ||
+                      places.took_click() || handles.has_cursor() || ends.has_cursor();
     if (busy || !scene.is_drawn() || !ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) return;
     look();
     camera.request_centre(scene.scene_view(c.ui), scene.layers(c.ui),
@@ -345,7 +347,7 @@ void Viewport::draw(PanelContext& c, const ScreenRect& whole) {
     // The gallery needs the height.
     const bool sliced = c.place.slices().in_row() && c.place.gallery().mode() == GalleryMode::Off;
     if (!sliced || c.shown.enlarged == Enlarged::Model) return impl_->draw(c, whole);
-    const ViewParts parts = view_parts(whole, c.ui.em, c.place.settings.panels, c.shown.enlarged);
+    const ViewParts parts = view_parts(whole, c.ui.em, c.core.settings.panels, c.shown.enlarged);
     impl_->draw(c, parts.model);
     impl_->slice_row.draw(c, {impl_->renderer, impl_->scene.planes(), impl_->guard}, parts);
     if (parts.border) draw_border(c, *parts.border);

@@ -5,10 +5,10 @@
 
 #include <imgui.h>
 
+#include "workbench/window/core/core.h"
 #include "workbench/window/core/shown.h"
 #include "workbench/window/widgets/controls.h"
 #include "workbench/window/widgets/panel_frame.h"
-#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 
@@ -41,14 +41,14 @@ void drag(PanelContext& c, const Border& border) {
     const float at = border.upright ? mouse.x : mouse.y;
     const double share =
         std::clamp(static_cast<double>((at - border.from) / (border.to - border.from)), 0.0, 1.0);
-    PanelSize& size = c.place.settings.panels[border.panel];
+    PanelSize& size = c.core.settings.panels[border.panel];
     size.folded = border.panel != Panel::Slices && share < kFoldsBelow;
     if (!size.folded) size.share = share;
     if (border.panel == Panel::Bottom) c.shown.enlarged = Enlarged::None;
 }
 
 void click(PanelContext& c, const Border& border) {
-    PanelSize& size = c.place.settings.panels[border.panel];
+    PanelSize& size = c.core.settings.panels[border.panel];
     if (border.panel == Panel::Bottom && c.shown.enlarged != Enlarged::None)
         c.shown.enlarged = Enlarged::None;
     else if (border.panel != Panel::Slices)
@@ -71,7 +71,7 @@ void draw_grip(const Ui& ui, const Border& border, bool lit) {
 
 void draw_border(PanelContext& c, const Border& border) {
     const std::string name = "border." + name_of(border.panel);
-    const bool folded = c.place.settings.panels[border.panel].folded;
+    const bool folded = c.core.settings.panels[border.panel].folded;
     begin_frame(c.ui, name, border.rect,
                 {.back = c.ui.theme.border, .padding = 0, .scrolls = false});
     ImGui::InvisibleButton(name.c_str(), {border.rect.width, border.rect.height});
@@ -81,7 +81,7 @@ void draw_border(PanelContext& c, const Border& border) {
         ImGui::GetIO().MouseDragMaxDistanceSqr[ImGuiMouseButton_Left] < kStill * kStill;
     if (active && !still) drag(c, border);
     if (ImGui::IsItemDeactivated() && still && over) click(c, border);
-    if (ImGui::IsItemDeactivated()) c.place.settings.save_soon();
+    if (ImGui::IsItemDeactivated()) c.core.settings.save_soon();
     if (over || active)
         ImGui::SetMouseCursor(border.upright ? ImGuiMouseCursor_ResizeEW
                                              : ImGuiMouseCursor_ResizeNS);

@@ -9,12 +9,13 @@
 
 #include "geometry/kernel/wording.h"
 #include "workbench/window/case/readable.h"
+#include "workbench/window/core/core.h"
 #include "workbench/window/core/shown.h"
 #include "workbench/window/drawing/model_drawing.h"
 #include "workbench/window/drawing/region_lines.h"
 #include "workbench/window/drawing/screen_places.h"
+#include "workbench/window/features/brush/brush_feature.h"
 #include "workbench/window/widgets/ui.h"
-#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 
@@ -60,14 +61,16 @@ bool BrushPointer::holds_left() const {
 }
 
 void BrushPointer::update(PanelContext& c, const Seen& seen) {
-    if (!c.place.can_paint() && !c.place.is_painting()) return leave(c);
+    if (!c.core.get<BrushFeature>().can_paint() && !c.core.get<BrushFeature>().is_painting())
+        return leave(c);
     const bool over = ImGui::IsItemHovered() || ImGui::IsItemActive();
     shown_ = over || stroke_.state() == Stroke::State::Painting;
-    if (!(c.place.tip().radius > 0.0))
-        c.place.set_tip(
-            scaled({seen.view.camera.half_height, c.place.tip().strength}, kFirstRadius));
+    if (!(c.core.get<BrushFeature>().tip().radius > 0.0))
+        c.core.get<BrushFeature>().set_tip(
+            scaled({seen.view.camera.half_height, c.core.get<BrushFeature>().tip().strength},
+                   kFirstRadius));
     take_answer(c, seen.surface);
-    if (stroke_.state() == Stroke::State::Painting && !c.place.document.is_painting())
+    if (stroke_.state() == Stroke::State::Painting && !c.core.document.is_painting())
         stroke_.cancel();
     handle_keys(c, over);
     handle_press(c);
@@ -82,7 +85,7 @@ void BrushPointer::rest(PanelContext& c) {
 
 /// Another operation, or none: what was painted counts.
 void BrushPointer::leave(PanelContext& c) {
-    if (stroke_.state() == Stroke::State::Painting) c.place.document.end_stroke();
+    if (stroke_.state() == Stroke::State::Painting) c.core.document.end_stroke();
     forget();
 }
 
@@ -138,7 +141,7 @@ void BrushPointer::handle_press(PanelContext& c) {
 
 void BrushPointer::begin(const PanelContext& c, const Press& press) {
     keys_ = press.keys;
-    stroke_.begin(c.place.tip().radius);
+    stroke_.begin(c.core.get<BrushFeature>().tip().radius);
     pressed_at_ = press.at;
     released_ = press.released_at.has_value();
     if (released_) released_at_ = *press.released_at;
@@ -151,8 +154,9 @@ void BrushPointer::extend(PanelContext& c) {
     const bool begins = stroke_.state() == Stroke::State::Deciding;
     const auto dabs = stroke_.extend(place_);
     extended_ = to;
-    if (begins && stroke_.state() == Stroke::State::Painting) c.place.begin_stroke(keys_);
-    for (const StrokePlace& dab : dabs) c.place.document.add_dab(dab);
+    if (begins && stroke_.state() == Stroke::State::Painting)
+        c.core.get<BrushFeature>().begin_stroke(keys_);
+    for (const StrokePlace& dab : dabs) c.core.document.add_dab(dab);
 }
 
 void BrushPointer::handle_release(PanelContext& c) {
@@ -169,7 +173,7 @@ void BrushPointer::handle_release(PanelContext& c) {
 
 /// The next one begins if its press was waiting.
 void BrushPointer::end_stroke(PanelContext& c) {
-    if (stroke_.state() == Stroke::State::Painting) c.place.document.end_stroke();
+    if (stroke_.state() == Stroke::State::Painting) c.core.document.end_stroke();
     stroke_.end();
     released_ = false;
     if (waiting_.empty()) return;
@@ -183,14 +187,15 @@ void BrushPointer::handle_keys(PanelContext& c, bool over) {
     if (over || sized_) handle_sizing(c);
     if (!over) return;
     for (const auto& [command, key] : kBrushKeys)
-        if (c.shown.keys.has(command)) c.place.set_tip(after_key(c.place.tip(), key));
+        if (c.shown.keys.has(command))
+            c.core.get<BrushFeature>().set_tip(after_key(c.core.get<BrushFeature>().tip(), key));
 }
 
 /// While F is held, the mouse changes the radius, with Shift the strength.
 void BrushPointer::handle_sizing(PanelContext& c) {
     if (!c.shown.keys.has(KeyCommand::SizeBrush) || holds_left()) return sized_.reset();
     if (!sized_) {
-        sized_ = c.place.tip();
+        sized_ = c.core.get<BrushFeature>().tip();
         sized_from_ = mouse_pixel().x();
     }
     const double moved = mouse_pixel().x() - sized_from_;
@@ -200,17 +205,17 @@ void BrushPointer::handle_sizing(PanelContext& c) {
         tip = with_strength(tip, std::abs(tip.strength) + moved / kStrengthReach);
     else
         tip = scaled(tip, std::exp(moved / kSizingReach));
-    c.place.set_tip(tip);
+    c.core.get<BrushFeature>().set_tip(tip);
 }
 
 // --- drawing
 
 void BrushPointer::draw(const PanelContext& c, const PixelView& screen) const {
-    if (!c.place.can_paint()) return;
+    if (!c.core.get<BrushFeature>().can_paint()) return;
     const ScreenRect rect = rect_of(screen);
-    const BrushTip tip = c.place.tip();
+    const BrushTip tip = c.core.get<BrushFeature>().tip();
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    const std::string words = readable(c.place.form()->operation().name) +
+    const std::string words = readable(c.core.form()->operation().name) +
                               formatted(tip.radius, ": radius %g mm") +
                               formatted(tip.strength, ", strength %g");
     draw_hint(c.ui, rect, words);

@@ -7,13 +7,14 @@
 #include <imgui.h>
 
 #include "geometry/kernel/wording.h"
+#include "workbench/window/core/core.h"
 #include "workbench/window/core/shown.h"
 #include "workbench/window/drawing/model_drawing.h"
+#include "workbench/window/features/colours/colours_feature.h"
 #include "workbench/window/style/icons.h"
 #include "workbench/window/widgets/controls.h"
 #include "workbench/window/widgets/slider.h"
 #include "workbench/window/widgets/ui.h"
-#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 
@@ -54,18 +55,18 @@ void ClipSection::choose_side(ClipChoice& choice, const ViewCamera& camera) {
 
 /// The box of the surface, from before a stroke while it is painted: the plane stays.
 void ClipSection::measure(const PanelContext& c, const Surface& surface) {
-    const bool painting = measured_ && c.place.document.is_painting();
+    const bool painting = measured_ && c.core.document.is_painting();
     if (painting || surface.positions == measured_) return;
     measured_ = surface.positions;
     box_ = bounds(surface.points());
 }
 
 void ClipSection::update(const PanelContext& c, const Surface* surface, const ViewCamera& camera) {
-    if (surface != nullptr && c.place.view.clip.on) measure(c, *surface);
-    choose_side(c.place.view.clip, camera);
+    if (surface != nullptr && c.core.view.clip.on) measure(c, *surface);
+    choose_side(c.core.view.clip, camera);
     std::optional<ClipPlane> now;
     if (surface != nullptr)
-        if (const auto plane = clip_plane(c.place.view.clip, box_, camera.view))
+        if (const auto plane = clip_plane(c.core.view.clip, box_, camera.view))
             now = ClipPlane{plane->point, plane->normal};
     const bool same = now.has_value() == plane_.has_value() &&
                       (!now || (now->point == plane_->point && now->normal == plane_->normal));
@@ -99,8 +100,8 @@ ClipSection::Prepared ClipSection::prepared(const VolumeMesh& mesh, const Colour
 }
 
 void ClipSection::update_cells(const PanelContext& c) {
-    const auto& colours = c.place.view_data().colours();
-    const Scene* scene = c.place.document.shown();
+    const auto& colours = c.core.get<ColoursFeature>().view_data().colours();
+    const Scene* scene = c.core.document.shown();
     const bool wanted = plane_ && colours && colours->kind == ColouringKind::TetrahedraQuality &&
                         scene != nullptr && scene->volume_mesh &&
                         scene->volume_mesh->tetrahedra.size() == colours->values.size();
@@ -111,8 +112,8 @@ void ClipSection::update_cells(const PanelContext& c) {
         search_.forget();
         return;
     }
-    if (range_ != c.place.view.range().value_or(colours->range)) ++version_;
-    range_ = c.place.view.range().value_or(colours->range);
+    if (range_ != c.core.view.range().value_or(colours->range)) ++version_;
+    range_ = c.core.view.range().value_or(colours->range);
     if (search_.poll()) take_cells();
     const Asked now{colours, plane_->point, plane_->normal};
     if (now == asked_ || search_.pending()) return;  // a dragged plane shows what is ready
@@ -168,7 +169,7 @@ std::string ClipSection::place_text(const ClipChoice& choice) const {
 }
 
 void ClipSection::draw_strip(PanelContext& c, ViewStrips& strips) const {
-    ClipChoice& choice = c.place.view.clip;
+    ClipChoice& choice = c.core.view.clip;
     if (!plane_) return;
     const Ui& ui = c.ui;
     const float side = ImGui::GetFrameHeight(), gap = ui.grid(0.75F), axes = ui.em * 7;

@@ -7,7 +7,6 @@
 #include "workbench/window/widgets/controls.h"
 #include "workbench/window/widgets/panel_frame.h"
 #include "workbench/window/widgets/ui.h"
-#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 
@@ -54,7 +53,7 @@ float comparison_banner_height(const Ui& ui) {
     return ImGui::GetFrameHeight() + ui.grid(1.5F);
 }
 
-void draw_comparison_banner(PanelContext& c, const ScreenRect& rect) {
+bool draw_comparison_banner(PanelContext& c, Comparison& comparison, const ScreenRect& rect) {
     const Ui& ui = c.ui;
     begin_frame(ui, "banner.comparison", rect,
                 {.back = ui.theme.raised,
@@ -62,7 +61,6 @@ void draw_comparison_banner(PanelContext& c, const ScreenRect& rect) {
                  .scrolls = false,
                  .floats = true,
                  .bordered = true});
-    Comparison& comparison = *c.place.comparison();
     for (const ModeLook& look : kModes) draw_mode(c, comparison, look);
     const float side = ImGui::GetFrameHeight();
     const float end = rect.width - ui.grid(0.75F) - side;
@@ -72,9 +70,9 @@ void draw_comparison_banner(PanelContext& c, const ScreenRect& rect) {
                  end - ImGui::GetCursorPosX() - ui.grid(1));
     ImGui::SameLine();
     ImGui::SetCursorPos({end, ui.grid(0.75F)});
-    if (icon_button(c.ui, "compare.close", icons::kClose, "End the comparison  Esc"))
-        c.place.stop_comparing();
+    const bool ended = icon_button(c.ui, "compare.close", icons::kClose, "End the comparison  Esc");
     end_frame();
+    return ended;
 }
 
 }  // namespace vesselbench

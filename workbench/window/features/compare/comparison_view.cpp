@@ -5,10 +5,11 @@
 #include <imgui.h>
 
 #include "workbench/window/case/readable.h"
+#include "workbench/window/core/core.h"
 #include "workbench/window/core/shown.h"
+#include "workbench/window/features/compare/compare_feature.h"
 #include "workbench/window/widgets/controls.h"
 #include "workbench/window/widgets/ui.h"
-#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 
@@ -18,16 +19,16 @@ float half_of(const ScreenRect& view) {
     return std::floor(view.width / 2);
 }
 
-std::string title_of(const Workplace& place, StateId state) {
-    for (const HistoryRow& row : place.history().rows)
+std::string title_of(const Core& core, StateId state) {
+    for (const HistoryRow& row : core.history().rows)
         if (row.state == state) return readable(row.title);
     return "";
 }
 
-std::string shown_title(const Workplace& place) {
-    const Document& document = place.document;
+std::string shown_title(const Core& core) {
+    const Document& document = core.document;
     if (document.previewed()) return "preview of " + document.previewed()->edit().operation;
-    return title_of(place, document.snapshot()->history->current());
+    return title_of(core, document.snapshot()->history->current());
 }
 
 /// A text on a plate, centred at the lower end of a part of the view.
@@ -46,7 +47,7 @@ void draw_label(const Ui& ui, const ScreenRect& part, const std::string& kind,
 }  // namespace
 
 void ComparisonView::update(PanelContext& c) {
-    std::optional<Comparison>& comparison = c.place.comparison();
+    std::optional<Comparison>& comparison = c.core.get<CompareFeature>().comparison();
     if (!comparison) return forget();
     if (mode_ == CompareMode::Blink && c.shown.keys.has(KeyCommand::SwitchComparison))
         comparison->switch_by_hand();
@@ -75,8 +76,8 @@ void ComparisonView::take(PanelContext& c, Comparison& comparison) {
         model_.show(comparison.scene());
     }
     difference_ = comparison.difference() ? comparison.difference()->map : nullptr;
-    reference_title_ = title_of(c.place, reference_);
-    shown_title_ = shown_title(c.place);
+    reference_title_ = title_of(c.core, reference_);
+    shown_title_ = shown_title(c.core);
     if (model_.update() || !same) ++version_;
 }
 

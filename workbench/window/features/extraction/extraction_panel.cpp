@@ -7,10 +7,11 @@
 
 #include "geometry/kernel/wording.h"
 #include "workbench/window/case/readable.h"
+#include "workbench/window/core/core.h"
 #include "workbench/window/core/shown.h"
+#include "workbench/window/features/extraction/extraction_feature.h"
 #include "workbench/window/widgets/controls.h"
 #include "workbench/window/widgets/ui.h"
-#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 
@@ -75,7 +76,7 @@ void draw_end(const PanelContext& c, ImVec2 at, float alignment, double value) {
 
 void draw_value(const PanelContext& c, const OperationForm& form) {
     text(c.ui, "Iso-value", c.ui.theme.text);
-    const auto iso = c.place.extraction().iso(form);
+    const auto iso = c.core.get<ExtractionFeature>().extraction().iso(form);
     if (!iso) return;
     const std::string value = formatted(*iso, "%.6g");
     ImGui::SameLine(ImGui::GetContentRegionMax().x - ImGui::CalcTextSize(value.c_str()).x -
@@ -85,15 +86,15 @@ void draw_value(const PanelContext& c, const OperationForm& form) {
 
 /// ImGui's last item sets the iso-value while it is pressed.
 void handle_press(PanelContext& c, const ValueAxis& axis) {
-    Workplace& place = c.place;
-    if (ImGui::IsItemActivated()) place.begin_sliding();
-    if (ImGui::IsItemActive() && place.is_sliding())
-        place.slide(axis.value(ImGui::GetIO().MousePos.x));
-    if (ImGui::IsItemDeactivated() && place.is_sliding()) place.end_drag();
+    Core& core = c.core;
+    if (ImGui::IsItemActivated()) core.get<ExtractionFeature>().begin_sliding();
+    if (ImGui::IsItemActive() && core.get<ExtractionFeature>().is_sliding())
+        core.get<ExtractionFeature>().slide(axis.value(ImGui::GetIO().MousePos.x));
+    if (ImGui::IsItemDeactivated() && core.get<ExtractionFeature>().is_sliding()) core.end_drag();
 }
 
 void draw_histogram(PanelContext& c, const OperationForm& form, const ImageHistogram& histogram) {
-    const LiveExtraction& extraction = c.place.extraction();
+    const LiveExtraction& extraction = c.core.get<ExtractionFeature>().extraction();
     draw_value(c, form);
     const ImVec2 from = ImGui::GetCursorScreenPos();
     const float pad = c.ui.grid(1), high = c.ui.em * 8.0F;
@@ -124,7 +125,7 @@ std::string figures_of(const ExtractionModel& model) {
 }
 
 void draw_state(PanelContext& c) {
-    const LiveExtraction& extraction = c.place.extraction();
+    const LiveExtraction& extraction = c.core.get<ExtractionFeature>().extraction();
     const auto& model = extraction.shown();
     if (!extraction.problem().empty())
         return wrapped(c.ui, readable_sentence(extraction.problem()), c.ui.theme.warning);
@@ -137,14 +138,14 @@ void draw_state(PanelContext& c) {
 }  // namespace
 
 void draw_extraction_panel(PanelContext& c, const OperationForm& form) {
-    LiveExtraction& extraction = c.place.extraction();
+    LiveExtraction& extraction = c.core.get<ExtractionFeature>().extraction();
     if (!extraction.can_follow())
         return wrapped(c.ui, "The surface cannot follow: " + extraction.why_not(),
                        c.ui.theme.warning);
-    if (extraction.begins()) c.place.follow_extraction(true);
+    if (extraction.begins()) c.core.get<ExtractionFeature>().follow(true);
     bool on = extraction.follows();
     if (checkbox(c.ui, "live.follow", "The surface follows the fields", on))
-        c.place.follow_extraction(on);
+        c.core.get<ExtractionFeature>().follow(on);
     space(c.ui, 1);
     const auto histogram = extraction.histogram();
     if (histogram && !histogram->counts.empty() && extraction.has_iso())

@@ -5,11 +5,12 @@
 #include <imgui.h>
 
 #include "geometry/kernel/wording.h"
+#include "workbench/window/core/core.h"
+#include "workbench/window/features/colours/colours_feature.h"
 #include "workbench/window/style/icons.h"
 #include "workbench/window/widgets/controls.h"
 #include "workbench/window/widgets/slider.h"
 #include "workbench/window/widgets/ui.h"
-#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 
@@ -35,7 +36,7 @@ const FlightPath* Endoscope::path() const {
 
 void Endoscope::update(const PanelContext& c, double seconds) {
     const bool flew = flies_;
-    flies_ = c.place.view.flies;
+    flies_ = c.core.view.flies;
     if (!flies_) plays_ = false;
     if (flies_ && !flew) {
         abscissa_ = 0.0;
@@ -49,9 +50,9 @@ void Endoscope::update(const PanelContext& c, double seconds) {
 
 /// The openings may be known later than the centerlines: these say where flights begin and end.
 void Endoscope::find_paths(const PanelContext& c) {
-    const auto& graph = c.place.view_data().centerlines();
-    if (!graph || c.place.searches_places()) return;
-    const std::vector<PatchMeasures>& openings = c.place.surface_places().openings;
+    const auto& graph = c.core.get<ColoursFeature>().view_data().centerlines();
+    if (!graph || c.core.searches_places()) return;
+    const std::vector<PatchMeasures>& openings = c.core.surface_places().openings;
     if (graph == graph_ && same_openings(openings, openings_)) return;
     graph_ = graph;
     openings_ = openings;
@@ -104,13 +105,13 @@ void Endoscope::draw_destination(PanelContext& c, float width) {
 }
 
 void Endoscope::draw_strip(PanelContext& c, ViewStrips& strips) {
-    if (!c.place.view.flies) return;
+    if (!c.core.view.flies) return;
     const Ui& ui = c.ui;
     const float side = ImGui::GetFrameHeight(), gap = ui.grid(0.75F), ends = ui.em * 12.5F;
     const float wide = strips.begin(ui, "flight", ui.em * 34);
     if (path() == nullptr) {
-        const ViewData& data = c.place.view_data();
-        const bool searches = data.finds_centerlines() || c.place.searches_places();
+        const ViewData& data = c.core.get<ColoursFeature>().view_data();
+        const bool searches = data.finds_centerlines() || c.core.searches_places();
         const std::string words = searches ? "Finding the centerlines"
                                   : !data.centerlines_problem().empty()
                                       ? data.centerlines_problem()
@@ -135,7 +136,7 @@ void Endoscope::draw_strip(PanelContext& c, ViewStrips& strips) {
         ViewStrips::next(ui);
     }
     if (icon_button(c.ui, "flight.close", icons::kClose, "Leave the vessel  E or Esc"))
-        c.place.view.flies = false;
+        c.core.view.flies = false;
 }
 
 }  // namespace vesselbench

@@ -3,11 +3,12 @@
 #include <imgui.h>
 
 #include "workbench/window/case/readable.h"
+#include "workbench/window/core/core.h"
+#include "workbench/window/features/gallery/gallery_feature.h"
 #include "workbench/window/keys/key_table.h"
 #include "workbench/window/style/icons.h"
 #include "workbench/window/widgets/controls.h"
 #include "workbench/window/widgets/ui.h"
-#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 
@@ -16,8 +17,8 @@ namespace {
 void draw_mode(PanelContext& c, const std::string& name, const std::string& label, GalleryMode mode,
                const ButtonLook& look) {
     ButtonLook own = look;
-    own.primary = c.place.gallery().mode() == mode;
-    if (button(c.ui, name, label, own)) c.place.show_gallery(mode);
+    own.primary = c.core.get<GalleryFeature>().gallery().mode() == mode;
+    if (button(c.ui, name, label, own)) c.core.get<GalleryFeature>().show(mode);
 }
 
 void draw_modes(PanelContext& c) {
@@ -36,7 +37,7 @@ void draw_modes(PanelContext& c) {
 }
 
 void draw_spot(PanelContext& c, std::size_t i) {
-    SpotList& spots = c.place.gallery().spots;
+    SpotList& spots = c.core.get<GalleryFeature>().gallery().spots;
     const std::string number = std::to_string(i);
     const bool chosen = &spots.all()[i] == spots.chosen();
     if (icon_button(c.ui, "spot.choose." + number, icons::kTarget, "Magnify this spot", true,
@@ -54,7 +55,7 @@ void draw_spot(PanelContext& c, std::size_t i) {
 }
 
 void draw_spots(PanelContext& c) {
-    SuggestionGallery& gallery = c.place.gallery();
+    SuggestionGallery& gallery = c.core.get<GalleryFeature>().gallery();
     for (std::size_t i = 0; i < gallery.spots.all().size(); ++i) draw_spot(c, i);
     const bool first = gallery.spots.all().empty();
     const bool picks = gallery.picks();
@@ -75,7 +76,7 @@ void draw_spots(PanelContext& c) {
 
 void draw_gallery_panel(PanelContext& c) {
     draw_modes(c);
-    const SuggestionGallery& gallery = c.place.gallery();
+    const SuggestionGallery& gallery = c.core.get<GalleryFeature>().gallery();
     if (gallery.mode() == GalleryMode::Off) return;
     space(c.ui, 0.5F);
     if (gallery.mode() == GalleryMode::Spots) draw_spots(c);

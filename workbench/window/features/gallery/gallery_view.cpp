@@ -9,9 +9,10 @@
 #include "geometry/kernel/wording.h"
 #include "gpu/picture.h"
 #include "workbench/window/case/readable.h"
+#include "workbench/window/core/core.h"
+#include "workbench/window/features/gallery/gallery_feature.h"
 #include "workbench/window/widgets/controls.h"
 #include "workbench/window/widgets/ui.h"
-#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 
@@ -82,7 +83,7 @@ GalleryView::GalleryView(const std::function<void()>& wake)
 // --- following
 
 void GalleryView::update(PanelContext& c, const ScreenRect& view) {
-    const SuggestionGallery& gallery = c.place.gallery();
+    const SuggestionGallery& gallery = c.core.get<GalleryFeature>().gallery();
     view_ = view;
     if (mode_ != gallery.mode()) ++version_;
     mode_ = gallery.mode();
@@ -256,7 +257,8 @@ float GalleryView::draw_plate(PanelContext& c, const ScreenRect& part, std::size
     const Ui& ui = c.ui;
     const auto& found = shown_[i];
     const float margin = ui.grid(0.75F), pad = ui.grid(0.75F);
-    const std::string title = plate_title(c.place.gallery(), i, found != nullptr);
+    const std::string title =
+        plate_title(c.core.get<GalleryFeature>().gallery(), i, found != nullptr);
     const float button_wide = ui.em * 4, room = part.width - 2 * (margin + pad);
     const float narrow = ImGui::CalcTextSize(title.c_str()).x + ui.em + button_wide;
     const float wide = magnifies() ? std::min(narrow, room) : room;
@@ -278,7 +280,7 @@ float GalleryView::draw_plate(PanelContext& c, const ScreenRect& part, std::size
     ImGui::SetCursorScreenPos({from.x + pad + wide - button_wide, from.y + pad});
     const std::string name = "gallery.take." + std::to_string(i);
     if (found && button(c.ui, name, "Take", {.width = button_wide, .help = take_help(*found)}))
-        c.place.take_suggestion(i);
+        c.core.get<GalleryFeature>().take(i);
     return high + 2 * margin;
 }
 

@@ -2,9 +2,10 @@
 
 #include <utility>
 
+#include "workbench/window/core/core.h"
 #include "workbench/window/drawing/model_drawing.h"
+#include "workbench/window/features/gallery/gallery_feature.h"
 #include "workbench/window/widgets/ui.h"
-#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 
@@ -35,11 +36,11 @@ void SpotPicker::take(SuggestionGallery& gallery, const SeenModel& seen) {
 }
 
 void SpotPicker::update(PanelContext& c, const SeenModel& seen) {
-    SuggestionGallery& gallery = c.place.gallery();
+    SuggestionGallery& gallery = c.core.get<GalleryFeature>().gallery();
     if (gallery.mode() != GalleryMode::Spots) return forget();
     take(gallery, seen);
-    if (seen.clicked && seen.surface != nullptr && c.place.armed().empty() &&
-        !c.place.is_measuring()) {
+    if (seen.clicked && seen.surface != nullptr && c.core.armed().empty() &&
+        !c.core.is_measuring()) {
         const auto mark = nearest_mark(seen.screen, places_of(gallery.spots), mouse_pixel(),
                                        kMarkReach * c.ui.em);
         if (gallery.picks()) {
@@ -54,7 +55,7 @@ void SpotPicker::update(PanelContext& c, const SeenModel& seen) {
 }
 
 void SpotPicker::draw(PanelContext& c, const PixelView& screen) const {
-    const SuggestionGallery& gallery = c.place.gallery();
+    const SuggestionGallery& gallery = c.core.get<GalleryFeature>().gallery();
     if (gallery.mode() != GalleryMode::Spots) return;
     for (const Spot& spot : gallery.spots.all()) {
         const auto at = screen.place(spot.point);

@@ -3,11 +3,13 @@
 #include <imgui.h>
 
 #include "geometry/kernel/same_surface.h"
+#include "workbench/window/core/core.h"
 #include "workbench/window/features/handles/crop_handles.h"
 #include "workbench/window/features/handles/cut_handles.h"
+#include "workbench/window/features/handles/handles_feature.h"
 #include "workbench/window/features/handles/length_handles.h"
+#include "workbench/window/features/openings/openings_feature.h"
 #include "workbench/window/widgets/ui.h"
-#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 
@@ -16,8 +18,8 @@ namespace {
 constexpr double kSnap = 0.4;  ///< a dragged length so near to a detent goes there [em]
 
 const Surface* model_of(const PanelContext& c) {
-    if (const Surface* before = c.place.openings().surface()) return before;
-    const Scene* scene = c.place.document.current();
+    if (const Surface* before = c.core.get<OpeningsFeature>().openings().surface()) return before;
+    const Scene* scene = c.core.document.current();
     return scene != nullptr && scene->surface && !scene->surface->empty() ? &*scene->surface
                                                                           : nullptr;
 }
@@ -38,19 +40,22 @@ void ViewHandles::forget() {
 void ViewHandles::take_model(const PanelContext& c) {
     if (model_of(c) == nullptr)
         openings_.clear();
-    else if (!c.place.document.previewed() && !c.place.searches_places())
-        openings_ = c.place.surface_places().openings;
+    else if (!c.core.document.previewed() && !c.core.searches_places())
+        openings_ = c.core.surface_places().openings;
 }
 
 void ViewHandles::take_shape(const PanelContext& c) {
-    const auto& form = c.place.form();
+    const auto& form = c.core.form();
     const Surface* model = model_of(c);
     const bool cuts = form && model != nullptr && has_field(*form, Meaning::Planes);
     cut_form_.reset();
-    if (cuts) cut_form_ = c.place.openings().lists_ends() ? c.place.openings().cut_form() : form;
+    if (cuts)
+        cut_form_ = c.core.get<OpeningsFeature>().openings().lists_ends()
+                        ? c.core.get<OpeningsFeature>().openings().cut_form()
+                        : form;
     take_cut(model, cut_form_ ? cut_question(*cut_form_) : std::nullopt);
     shape_ = {};
-    const auto& offered = c.place.offered_box();
+    const auto& offered = c.core.get<HandlesFeature>().offered_box();
     if (form && offered)
         shape_ = crop_shape(*form, *offered);
     else if (!form || model == nullptr)
@@ -59,7 +64,7 @@ void ViewHandles::take_shape(const PanelContext& c) {
         shape_ = length_shape(*form, openings_);
     else if (cut_form_ && cut_)
         shape_ = cut_shape(*cut_form_, *cut_);
-    if (!c.place.armed().empty()) shape_.handles.clear();
+    if (!c.core.armed().empty()) shape_.handles.clear();
 }
 
 /// Begins a search if the question or the surface is another one, and takes a result. While a plane
@@ -107,20 +112,20 @@ void ViewHandles::begin(PanelContext& c, const PixelView& view, const ViewPixel&
               .openings = openings_,
               .cursor = cursor,
               .offset = cursor - view.place(shape_.handles[*hot_].point).value_or(cursor)};
-    c.place.begin_drag();
+    c.core.begin_drag();
     state_ = State::Dragging;
 }
 
 std::vector<FieldText> ViewHandles::texts(const PanelContext& c, const Vec3& to,
                                           double snap) const {
-    const OperationForm& before = *c.place.before_drag();
-    if (const auto& offered = c.place.offered_box())
+    const OperationForm& before = *c.core.before_drag();
+    if (const auto& offered = c.core.get<HandlesFeature>().offered_box())
         return crop_texts(before, *offered, start_.index, to);
     if (has_field(before, Meaning::Openings))
         return length_texts(before, start_.openings, start_.index, to, snap);
     if (!start_.cut || !start_.cut_form) return {};
     std::vector<FieldText> moved = cut_texts(*start_.cut_form, *start_.cut, start_.index, to);
-    const OpeningsModel& openings = c.place.openings();
+    const OpeningsModel& openings = c.core.get<OpeningsFeature>().openings();
     if (!openings.lists_ends()) return moved;
     return openings.dragged_texts(before, *start_.cut_form, *start_.cut, moved);
 }
@@ -129,7 +134,7 @@ void ViewHandles::follow(PanelContext& c, const PixelView& view, const ViewPixel
     if (cursor == start_.cursor) return;
     const Vec3 to = dragged_point(start_.handle, view, cursor - start_.offset);
     const double snap = kSnap * c.ui.em * view.pixel_at(to);
-    c.place.drag(texts(c, to, snap));
+    c.core.drag(texts(c, to, snap));
 }
 
 void ViewHandles::update(PanelContext& c, const PixelView& view) {
@@ -142,13 +147,13 @@ void ViewHandles::update(PanelContext& c, const PixelView& view) {
             begin(c, view, cursor);
         return;
     }
-    if (state_ == State::Dragging && !c.place.before_drag()) state_ = State::Dropped;
+    if (state_ == State::Dragging && !c.core.before_drag()) state_ = State::Dropped;
     if (state_ == State::Dragging) {
         follow(c, view, cursor);
         take_shape(c);
     }
     if (ImGui::IsMouseDown(ImGuiMouseButton_Left)) return;
-    c.place.end_drag();
+    c.core.end_drag();
     state_ = State::Idle;
 }
 
@@ -180,7 +185,7 @@ void ViewHandles::draw(PanelContext& c, const PixelView& screen) const {
             draw_plate(c.ui,
                        {at->x() + c.ui.em * 1.1F, at->y() + c.ui.em * (note.below ? 1.8F : 0.0F)},
                        note.text);
-    if (!c.place.armed().empty() || c.place.searches_places()) return;
+    if (!c.core.armed().empty() || c.core.searches_places()) return;
     if (cut_ && !cut_->problem.empty()) return draw_hint(c.ui, rect_of(screen), cut_->problem);
     if (state_ == State::Idle && !hot_) return;
     ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);

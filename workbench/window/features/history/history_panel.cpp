@@ -8,14 +8,15 @@
 #include <imgui.h>
 
 #include "workbench/window/case/readable.h"
+#include "workbench/window/core/core.h"
 #include "workbench/window/core/shown.h"
+#include "workbench/window/features/compare/compare_feature.h"
 #include "workbench/window/features/history/history_columns.h"
 #include "workbench/window/features/history/thumbnail_drawing.h"
 #include "workbench/window/features/history/thumbnails.h"
 #include "workbench/window/style/icons.h"
 #include "workbench/window/widgets/controls.h"
 #include "workbench/window/widgets/ui.h"
-#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 
@@ -165,13 +166,13 @@ void draw_tools(PanelContext& c, const HistoryRow& state, ImVec2 at) {
                    !state.note.empty()))
         c.shown.note = NoteInProgress{state.edit, readable(state.title), state.note};
     if (state.current) return;
-    const auto& comparison = c.place.comparison();
+    const auto& comparison = c.core.get<CompareFeature>().comparison();
     const bool compared = comparison && comparison->reference() == state.state;
     ImGui::SetCursorScreenPos({at.x + ImGui::GetFrameHeight(), at.y});
     if (quiet_icon(c, "history.compare." + id, icons::kCompare,
                    compared ? "End the comparison" : "Compare this state with the shown one",
                    compared))
-        c.place.compare(state.state);
+        c.core.get<CompareFeature>().compare(state.state);
 }
 
 void draw_row(PanelContext& c, const HistoryRow& state, const Columns& columns, float height) {
@@ -194,8 +195,8 @@ void draw_row(PanelContext& c, const HistoryRow& state, const Columns& columns, 
     const float side = ImGui::GetFrameHeight();
     draw_tools(c, state, {from.x + columns.tools, from.y + (height - side) / 2});
     ImGui::SetCursorPos(next);
-    if (clicked && !state.current && c.place.document.can(RequestKind::History))
-        c.place.document.jump(state.state);
+    if (clicked && !state.current && c.core.document.can(RequestKind::History))
+        c.core.document.jump(state.state);
 }
 
 /// The nodes and lines that reach into the visible part.
@@ -228,7 +229,7 @@ void show_current(const HistoryTree& tree, float top, float height) {
 }  // namespace
 
 void draw_history(PanelContext& c) {
-    const HistoryTree& tree = c.place.history();
+    const HistoryTree& tree = c.core.history();
     const float height = row_height(c.ui);
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
     const ImVec2 corner = ImGui::GetCursorScreenPos();

@@ -5,11 +5,11 @@
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
+#include "workbench/window/core/core.h"
 #include "workbench/window/core/shown.h"
 #include "workbench/window/widgets/controls.h"
 #include "workbench/window/widgets/panel_frame.h"
 #include "workbench/window/widgets/ui.h"
-#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 
@@ -17,7 +17,7 @@ namespace {
 
 void save(PanelContext& c) {
     const NoteInProgress note = *std::exchange(c.shown.note, std::nullopt);
-    c.place.document.set_note(note.edit, note.words);
+    c.core.document.set_note(note.edit, note.words);
 }
 
 void draw_words(PanelContext& c, float height) {
@@ -27,7 +27,7 @@ void draw_words(PanelContext& c, float height) {
 }
 
 void draw_buttons(PanelContext& c) {
-    const Document& document = c.place.document;
+    const Document& document = c.core.document;
     const float width = c.ui.em * 8;
     const bool can_save = document.can(RequestKind::History);
     ImGui::SetCursorPosX(ImGui::GetWindowWidth() - c.ui.grid(2.5F) - 2 * width - c.ui.grid(1));

@@ -5,10 +5,11 @@
 #include <imgui.h>
 
 #include "workbench/window/case/readable.h"
+#include "workbench/window/core/core.h"
 #include "workbench/window/drawing/screen_places.h"
+#include "workbench/window/features/live/live_feature.h"
 #include "workbench/window/widgets/controls.h"
 #include "workbench/window/widgets/ui.h"
-#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 
@@ -33,8 +34,8 @@ std::string movements(const DriveAxes& axes, const OperationForm& form) {
 }  // namespace
 
 void DriveControl::begin(PanelContext& c) {
-    c.place.begin_driving();
-    if (!c.place.is_driving()) return;
+    c.core.get<LiveFeature>().begin_driving();
+    if (!c.core.get<LiveFeature>().is_driving()) return;
     take_keyboard();  // a field that is typed in would keep its text, and Escape
     state_ = State::Driving;
     last_ = mouse_pixel();
@@ -51,7 +52,7 @@ void DriveControl::follow(PanelContext& c) {
         reach_.up -= by.y();
     }
     // Also without a movement: what a parameter begins with may just have become known.
-    c.place.drive(reach_);
+    c.core.get<LiveFeature>().drive(reach_);
 }
 
 void DriveControl::update(PanelContext& c, bool over) {
@@ -59,20 +60,21 @@ void DriveControl::update(PanelContext& c, bool over) {
         if (over && ImGui::IsMouseClicked(ImGuiMouseButton_Right)) begin(c);
         return;
     }
-    if (state_ == State::Driving && !c.place.is_driving()) state_ = State::Dropped;
+    if (state_ == State::Driving && !c.core.get<LiveFeature>().is_driving())
+        state_ = State::Dropped;
     if (state_ == State::Driving) follow(c);
     if (ImGui::IsMouseDown(ImGuiMouseButton_Right)) return;
-    if (state_ == State::Driving) c.place.end_drag();
+    if (state_ == State::Driving) c.core.end_drag();
     state_ = State::Idle;
 }
 
 void DriveControl::draw(const PanelContext& c, const ScreenRect& view, bool over) const {
-    if (!c.place.form()) return;
-    const std::string words = movements(c.place.live().axes(), *c.place.form());
+    if (!c.core.form()) return;
+    const std::string words = movements(c.core.get<LiveFeature>().live().axes(), *c.core.form());
     if (words.empty()) return;
     if (state_ == State::Driving)
         draw_hint(c.ui, view, words + "    Esc: restore");
-    else if (over && c.place.can_drive() && !ImGui::IsAnyMouseDown())
+    else if (over && c.core.get<LiveFeature>().can_drive() && !ImGui::IsAnyMouseDown())
         draw_hint(c.ui, view, "Hold the right button and move. " + words);
 }
 

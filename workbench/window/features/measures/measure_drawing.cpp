@@ -10,9 +10,10 @@
 
 #include "geometry/kernel/wording.h"
 #include "workbench/report/measure_table.h"
+#include "workbench/window/core/core.h"
 #include "workbench/window/core/shown.h"
+#include "workbench/window/features/measures/measures_feature.h"
 #include "workbench/window/widgets/ui.h"
-#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 
@@ -55,7 +56,7 @@ void draw_diameter(const Ui& ui, const PixelView& screen, const KeptMeasure& mea
 }
 
 void draw_one(PanelContext& c, const PixelView& screen, std::size_t i) {
-    const KeptMeasure& measure = c.place.measures.all()[i];
+    const KeptMeasure& measure = c.core.get<MeasuresFeature>().measures().all()[i];
     if (measure.kind == MeasureKind::Distance)
         draw_distance(c.ui, screen, measure);
     else
@@ -67,8 +68,8 @@ void draw_one(PanelContext& c, const PixelView& screen, std::size_t i) {
 /// \param shown whether a point is in the picture
 void draw_those(PanelContext& c, const PixelView& screen,
                 const std::function<bool(const Vec3&)>& shown) {
-    const MeasureList& measures = c.place.measures;
-    if (c.place.view.tool == MeasureTool::None && c.shown.bottom != BottomTab::Measures) return;
+    const MeasureList& measures = c.core.get<MeasuresFeature>().measures();
+    if (c.core.view.tool == MeasureTool::None && c.shown.bottom != BottomTab::Measures) return;
     for (std::size_t i = 0; i < measures.all().size(); ++i)
         if (std::ranges::all_of(measures.all()[i].points, shown)) draw_one(c, screen, i);
     if (!measures.first_point() || !shown(*measures.first_point())) return;

@@ -7,10 +7,11 @@
 #include "workbench/report/measure_table.h"
 #include "workbench/window/case/local_time.h"
 #include "workbench/window/case/readable.h"
+#include "workbench/window/core/core.h"
+#include "workbench/window/features/measures/measures_feature.h"
 #include "workbench/window/style/icons.h"
 #include "workbench/window/widgets/controls.h"
 #include "workbench/window/widgets/ui.h"
-#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 
@@ -24,7 +25,7 @@ std::string made_on(const PanelContext& c, const KeptMeasure& measure) {
     std::string words = to_string(measure.on);
     std::ranges::replace(words, '-', ' ');
     if (measure.on != MeasuredOn::Surface && measure.on != MeasuredOn::Preview) return words;
-    const auto& rows = c.place.history().rows;
+    const auto& rows = c.core.history().rows;
     const auto row = std::ranges::find(rows, measure.state, &HistoryRow::state);
     return row == rows.end() ? words : words + ", " + readable(row->title);
 }
@@ -33,7 +34,7 @@ std::string made_on(const PanelContext& c, const KeptMeasure& measure) {
 bool draw_tools(PanelContext& c, const KeptMeasure& measure, const std::string& number) {
     if (icon_button(c.ui, "measures.look." + number, icons::kTarget,
                     "Show the place in the view and in the slices"))
-        c.place.look_at(middle_of(measure));
+        c.core.look_at(middle_of(measure));
     ImGui::SameLine(0, c.ui.grid(0.5F));
     return icon_button(c.ui, "measures.remove." + number, icons::kDelete, "Remove this measure");
 }
@@ -42,7 +43,7 @@ bool draw_tools(PanelContext& c, const KeptMeasure& measure, const std::string& 
 /// \return true if the measure is to be removed
 bool draw_row(PanelContext& c, std::size_t i) {
     const Ui& ui = c.ui;
-    const KeptMeasure measure = c.place.measures.all()[i];
+    const KeptMeasure measure = c.core.get<MeasuresFeature>().measures().all()[i];
     const std::string number = std::to_string(i);
     const float gap = ui.grid(1), right = ImGui::GetWindowWidth() - ui.grid(3);
     const float tools = right - 2 * ImGui::GetFrameHeight() - ui.grid(0.5F);
@@ -52,7 +53,7 @@ bool draw_row(PanelContext& c, std::size_t i) {
     ImGui::SetCursorPosX(gap);
     std::string name = measure.name;
     if (text_field(c.ui, "measures.name." + number, name, {.hint = "name", .width = ui.em * kName}))
-        c.place.measures.rename(i, name);
+        c.core.get<MeasuresFeature>().measures().rename(i, name);
     const auto cell = [&](float from, float wide, const std::string& words, Paint colour) {
         if (wide <= gap) return;
         ImGui::SameLine(from);
@@ -69,14 +70,14 @@ bool draw_row(PanelContext& c, std::size_t i) {
 void draw_export(PanelContext& c) {
     ImGui::SetCursorPosX(c.ui.grid(1));
     if (button(c.ui, "measures.export", "Export as CSV",
-               {.icon = icons::kExport, .enabled = c.place.document.can(RequestKind::Output)}))
-        c.place.ask(FileQuestion::Measures);
+               {.icon = icons::kExport, .enabled = c.core.document.can(RequestKind::Output)}))
+        c.core.ask(FileQuestion::Measures);
 }
 
 }  // namespace
 
 void draw_measure_table(PanelContext& c) {
-    const MeasureList& measures = c.place.measures;
+    const MeasureList& measures = c.core.get<MeasuresFeature>().measures();
     space(c.ui, 0.5F);
     if (!measures.not_stored().empty())
         wrapped(c.ui, "Changes are lost when the project is closed: " + measures.not_stored(),
@@ -90,7 +91,7 @@ void draw_measure_table(PanelContext& c) {
     for (std::size_t i = 0; i < measures.all().size(); ++i)
         if (draw_row(c, i)) removed = i;
     draw_export(c);
-    if (removed) c.place.measures.remove(*removed);
+    if (removed) c.core.get<MeasuresFeature>().measures().remove(*removed);
 }
 
 }  // namespace vesselbench

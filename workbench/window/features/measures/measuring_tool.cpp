@@ -6,12 +6,14 @@
 
 #include "geometry/kernel/errors.h"
 #include "workbench/report/measure_table.h"
+#include "workbench/window/core/core.h"
 #include "workbench/window/core/shown.h"
 #include "workbench/window/drawing/model_drawing.h"
+#include "workbench/window/features/colours/colours_feature.h"
+#include "workbench/window/features/measures/measures_feature.h"
 #include "workbench/window/style/icons.h"
 #include "workbench/window/widgets/controls.h"
 #include "workbench/window/widgets/ui.h"
-#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 
@@ -37,15 +39,16 @@ void MeasuringTool::forget() {
 }
 
 void MeasuringTool::update(PanelContext& c, const SeenModel& seen) {
-    const Document& document = c.place.document;
-    if (tool_ != c.place.view.tool || seen_scenes_ != document.scene_changes()) forget();
-    tool_ = c.place.view.tool;
+    const Document& document = c.core.document;
+    if (tool_ != c.core.view.tool || seen_scenes_ != document.scene_changes()) forget();
+    tool_ = c.core.view.tool;
     seen_scenes_ = document.scene_changes();
     if (search_.poll())
         if (const auto found = search_.take())
-            c.place.measures.add(*found, c.place.measured_model(MeasuredOn::Surface));
+            c.core.get<MeasuresFeature>().measures().add(
+                *found, c.core.get<MeasuresFeature>().measured_model(MeasuredOn::Surface));
     if (const auto picked = picker_.result()) take(c, *picked);
-    if (c.place.is_measuring() && seen.surface != nullptr && seen.clicked) add_click(seen);
+    if (c.core.is_measuring() && seen.surface != nullptr && seen.clicked) add_click(seen);
     search_click();
     search_diameter(c);
     if (picker_.pending() && wake_) wake_();
@@ -66,14 +69,15 @@ void MeasuringTool::search_click() {
 void MeasuringTool::take(PanelContext& c, const Picked& picked) {
     if (picked.layer != kModelLayer) return;
     if (tool_ == MeasureTool::Distance)
-        c.place.measures.click(picked.point, c.place.measured_model(MeasuredOn::Surface));
+        c.core.get<MeasuresFeature>().measures().click(
+            picked.point, c.core.get<MeasuresFeature>().measured_model(MeasuredOn::Surface));
     if (tool_ == MeasureTool::Diameter) places_.push_back(picked.point);
 }
 
 /// Those clicked before the centerlines are known wait for them.
 void MeasuringTool::search_diameter(const PanelContext& c) {
-    const ViewData& data = c.place.view_data();
-    const Scene* scene = c.place.document.shown();
+    const ViewData& data = c.core.get<ColoursFeature>().view_data();
+    const Scene* scene = c.core.document.shown();
     if (places_.empty() || search_.pending() || data.finds_centerlines()) return;
     const auto& lines = data.centerlines();
     if (!lines || scene == nullptr || !scene->surface) return places_.clear();
@@ -85,14 +89,14 @@ void MeasuringTool::search_diameter(const PanelContext& c) {
 }
 
 std::string MeasuringTool::words(const PanelContext& c) const {
-    const ViewData& data = c.place.view_data();
+    const ViewData& data = c.core.get<ColoursFeature>().view_data();
     if (tool_ == MeasureTool::Diameter) {
         if (data.finds_centerlines()) return "Finding the centerlines";
         if (!data.centerlines_problem().empty()) return data.centerlines_problem();
         if (!search_.problem().empty()) return search_.problem();
         return "Diameter: click a vessel";
     }
-    const MeasureList& measures = c.place.measures;
+    const MeasureList& measures = c.core.get<MeasuresFeature>().measures();
     if (measures.lengthens())
         return measure_text(measures.all().back()) + ": click further points, or +";
     return measures.first_point() ? "Click another point" : "Distance: click a point";
@@ -108,7 +112,7 @@ void MeasuringTool::draw_strip(PanelContext& c, ViewStrips& strips) {
     ImGui::AlignTextToFramePadding();
     clipped_text(ui, words(c), ui.theme.text, wide - 3 * side - 4 * gap);
     ImGui::SameLine(left + wide - 3 * side - 2 * gap);
-    MeasureList& measures = c.place.measures;
+    MeasureList& measures = c.core.get<MeasuresFeature>().measures();
     if (icon_button(c.ui, "measure.next", icons::kPlus, "The next click begins another distance",
                     measures.lengthens()))
         measures.begin_next();
@@ -118,7 +122,7 @@ void MeasuringTool::draw_strip(PanelContext& c, ViewStrips& strips) {
         measures.take_back();
     ViewStrips::next(ui);
     if (icon_button(c.ui, "measure.close", icons::kClose, "Stop measuring  Esc"))
-        c.place.view.tool = MeasureTool::None;
+        c.core.view.tool = MeasureTool::None;
 }
 
 }  // namespace vesselbench

@@ -7,12 +7,13 @@
 #include <imgui.h>
 
 #include "geometry/kernel/wording.h"
+#include "workbench/window/core/core.h"
 #include "workbench/window/drawing/card.h"
 #include "workbench/window/drawing/region_lines.h"
+#include "workbench/window/features/openings/openings_feature.h"
 #include "workbench/window/style/icons.h"
 #include "workbench/window/widgets/controls.h"
 #include "workbench/window/widgets/ui.h"
-#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 
@@ -30,9 +31,10 @@ ImVec2 corner_of(const ViewPixel& at) {
 
 /// True while clicks are for ends. Keys may have closed the form in this frame.
 bool is_active(const PanelContext& c) {
-    const auto& form = c.place.form();
-    return form && has_field(*form, Meaning::Planes) && !c.place.openings().rows().empty() &&
-           c.place.armed().empty() && c.place.view.tool == MeasureTool::None;
+    const auto& form = c.core.form();
+    return form && has_field(*form, Meaning::Planes) &&
+           !c.core.get<OpeningsFeature>().openings().rows().empty() && c.core.armed().empty() &&
+           c.core.view.tool == MeasureTool::None;
 }
 
 /// Above the end, or below it where the view ends.
@@ -71,7 +73,7 @@ void draw_disc(const Ui& ui, const PixelView& screen, const EndRow& row, bool li
 void draw_marker(PanelContext& c, const PixelView& screen, const EndRow& row) {
     const auto at = marker_place(c.ui, screen, row), end = screen.place(row.place);
     if (!at || !end) return;
-    const bool lit = is_lit(c.place.openings(), row);
+    const bool lit = is_lit(c.core.get<OpeningsFeature>().openings(), row);
     ImGui::GetWindowDrawList()->AddLine(corner_of(*at), corner_of(*end),
                                         end_colour(c.ui.theme, row.wish), c.ui.em * 0.12F);
     draw_end_badge(c.ui, *at, row, lit);
@@ -138,22 +140,23 @@ std::string end_text(const EndRow& row) {
 bool EndMarkers::update(PanelContext& c, const PixelView& screen, bool over, bool clicked) {
     hot_.reset();
     if (!over || !is_active(c)) return false;
-    const std::vector<EndRow>& rows = c.place.openings().rows();
+    const std::vector<EndRow>& rows = c.core.get<OpeningsFeature>().openings().rows();
     std::vector<std::optional<ViewPixel>> seen;
     for (const EndRow& row : rows) seen.push_back(marker_place(c.ui, screen, row));
     const auto nearest = nearest_to(mouse_pixel(), seen, kMarkerReach * c.ui.em);
     if (!nearest) return false;
     const EndRow row = rows[*nearest];
     hot_ = row.number;
-    c.place.openings().point_at(row.number);
+    c.core.get<OpeningsFeature>().openings().point_at(row.number);
     if (!clicked) return false;
-    c.place.openings().select(row.number);
-    c.place.fill_form(c.place.openings().wish_texts(*c.place.form(), row.number, next_wish(row)));
+    c.core.get<OpeningsFeature>().openings().select(row.number);
+    c.core.fill_form(c.core.get<OpeningsFeature>().openings().wish_texts(*c.core.form(), row.number,
+                                                                         next_wish(row)));
     return true;
 }
 
 void EndMarkers::draw(PanelContext& c, const PixelView& screen) const {
-    const OpeningsModel& openings = c.place.openings();
+    const OpeningsModel& openings = c.core.get<OpeningsFeature>().openings();
     for (const EndRow& row : openings.rows()) draw_disc(c.ui, screen, row, is_lit(openings, row));
     // The rows begin with the ends in doubt: their markers, and lit ones, are over the others.
     for (auto row = openings.rows().rbegin(); row != openings.rows().rend(); ++row)
@@ -168,9 +171,9 @@ void EndMarkers::draw(PanelContext& c, const PixelView& screen) const {
 }
 
 void EndMarkers::draw_card(PanelContext& c, const PixelView& screen) const {
-    OpeningsModel& openings = c.place.openings();
+    OpeningsModel& openings = c.core.get<OpeningsFeature>().openings();
     const EndRow* chosen = openings.selected() ? openings.row(*openings.selected()) : nullptr;
-    if (chosen == nullptr || !is_active(c) || c.place.before_drag()) return;
+    if (chosen == nullptr || !is_active(c) || c.core.before_drag()) return;
     const EndRow row = *chosen;
     const auto at = marker_place(c.ui, screen, row);
     if (!at) return;
@@ -187,7 +190,7 @@ void EndMarkers::draw_card(PanelContext& c, const PixelView& screen) const {
     for (const auto& [wish, enabled, help] : buttons) {
         if (button(c.ui, "card." + to_string(wish), to_string(wish),
                    {.primary = row.wish == wish, .enabled = enabled, .width = wide, .help = help}))
-            c.place.fill_form(openings.wish_texts(*c.place.form(), row.number, wish));
+            c.core.fill_form(openings.wish_texts(*c.core.form(), row.number, wish));
         ImGui::SameLine(0, pad);
     }
 }

@@ -7,12 +7,13 @@
 #include <imgui.h>
 
 #include "geometry/kernel/wording.h"
+#include "workbench/window/core/core.h"
 #include "workbench/window/features/openings/end_markers.h"
+#include "workbench/window/features/openings/openings_feature.h"
 #include "workbench/window/keys/keys.h"
 #include "workbench/window/style/icons.h"
 #include "workbench/window/widgets/controls.h"
 #include "workbench/window/widgets/ui.h"
-#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 
@@ -22,19 +23,20 @@ constexpr float kFateWidth = 5.0F;   ///< of the button that says what becomes o
 constexpr float kMostHeight = 0.8F;  ///< of the table, as a share of what is left [-]
 
 void fill(PanelContext& c, const std::vector<FieldText>& texts) {
-    c.place.fill_form(texts);
+    c.core.fill_form(texts);
 }
 
 void wish(PanelContext& c, const EndRow& row, EndWish wished) {
-    c.place.openings().select(row.number);
-    fill(c, c.place.openings().wish_texts(*c.place.form(), row.number, wished));
+    c.core.get<OpeningsFeature>().openings().select(row.number);
+    fill(c,
+         c.core.get<OpeningsFeature>().openings().wish_texts(*c.core.form(), row.number, wished));
 }
 
 /// With Ctrl beside the inlets that there are.
 void make_inlet(PanelContext& c, const EndRow& row) {
     if (!ImGui::GetIO().KeyCtrl) return wish(c, row, EndWish::Inlet);
-    c.place.openings().select(row.number);
-    fill(c, c.place.openings().inlet_texts(*c.place.form(), row.number));
+    c.core.get<OpeningsFeature>().openings().select(row.number);
+    fill(c, c.core.get<OpeningsFeature>().openings().inlet_texts(*c.core.form(), row.number));
 }
 
 std::string doubt_text(const EndRow& row) {
@@ -65,7 +67,7 @@ float height_of_row(const Ui& ui) {
 
 void draw_texts(const PanelContext& c, const EndRow& row, ImVec2 from, float width) {
     const Ui& ui = c.ui;
-    const bool lit = c.place.openings().selected() == row.number;
+    const bool lit = c.core.get<OpeningsFeature>().openings().selected() == row.number;
     const float pad = ui.grid(1), line = ImGui::GetFrameHeight();
     const float first = from.y + pad / 2 + (line - ui.em) / 2, second = from.y + pad / 2 + line;
     draw_end_badge(ui, {from.x + pad + ui.em * 0.7F, from.y + height_of_row(ui) / 2}, row, lit);
@@ -101,7 +103,7 @@ void draw_buttons(PanelContext& c, const EndRow& row, ImVec2 from, float width) 
 }
 
 void draw_row(PanelContext& c, const EndRow& row) {
-    OpeningsModel& openings = c.place.openings();
+    OpeningsModel& openings = c.core.get<OpeningsFeature>().openings();
     const ImVec2 from = ImGui::GetCursorScreenPos();
     const float width = std::max(1.0F, ImGui::GetContentRegionAvail().x);
     const float height = height_of_row(c.ui);
@@ -151,7 +153,7 @@ void handle_keys(PanelContext& c) {
     if (!ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem) ||
         ImGui::GetIO().WantTextInput || ImGui::GetIO().KeyCtrl)
         return;
-    OpeningsModel& openings = c.place.openings();
+    OpeningsModel& openings = c.core.get<OpeningsFeature>().openings();
     if (ImGui::IsKeyPressed(keys::kDown)) step(c.ui, openings, 1);
     if (ImGui::IsKeyPressed(keys::kUp)) step(c.ui, openings, -1);
     const EndRow* chosen = openings.selected() ? openings.row(*openings.selected()) : nullptr;
@@ -162,7 +164,7 @@ void handle_keys(PanelContext& c) {
 }
 
 void draw_table(PanelContext& c) {
-    const std::vector<EndRow> rows = c.place.openings().rows();
+    const std::vector<EndRow> rows = c.core.get<OpeningsFeature>().openings().rows();
     const float height = height_of_row(c.ui);
     const float most = kMostHeight * ImGui::GetWindowHeight();
     ImGui::BeginChild("ends", {0, std::min(static_cast<float>(rows.size()) * height, most)});
@@ -176,7 +178,7 @@ void draw_table(PanelContext& c) {
 
 /// What takes wishes back.
 void draw_returns(PanelContext& c) {
-    OpeningsModel& openings = c.place.openings();
+    OpeningsModel& openings = c.core.get<OpeningsFeature>().openings();
     const bool any = std::ranges::any_of(
         openings.rows(), [](const EndRow& row) { return row.chosen || row.is_changed(); });
     const EndRow* chosen = openings.selected() ? openings.row(*openings.selected()) : nullptr;
@@ -187,11 +189,11 @@ void draw_returns(PanelContext& c) {
     if (button(c.ui, "ends.unmove", "Cut as planned",
                {.enabled = chosen != nullptr && chosen->moved,
                 .help = "The cut of the chosen end goes back to where it was planned"}))
-        fill(c, openings.move_texts(*c.place.form(), chosen->number, std::nullopt));
+        fill(c, openings.move_texts(*c.core.form(), chosen->number, std::nullopt));
 }
 
 void draw_state(const PanelContext& c) {
-    const OpeningsModel& openings = c.place.openings();
+    const OpeningsModel& openings = c.core.get<OpeningsFeature>().openings();
     if (!openings.problem().empty())
         wrapped(c.ui, openings.problem(), c.ui.theme.danger);
     else if (openings.pending() && openings.rows().empty())
@@ -216,11 +218,11 @@ void draw_single(PanelContext& c) {
 }  // namespace
 
 void draw_openings_panel(PanelContext& c) {
-    if (!c.place.openings().lists_ends()) {
+    if (!c.core.get<OpeningsFeature>().openings().lists_ends()) {
         draw_single(c);
     } else {
         draw_state(c);
-        if (!c.place.openings().rows().empty()) {
+        if (!c.core.get<OpeningsFeature>().openings().rows().empty()) {
             draw_table(c);
             draw_returns(c);
         }

@@ -4,11 +4,12 @@
 
 #include <imgui.h>
 
+#include "workbench/window/core/core.h"
 #include "workbench/window/drawing/card.h"
+#include "workbench/window/features/openings/openings_feature.h"
 #include "workbench/window/style/icons.h"
 #include "workbench/window/widgets/controls.h"
 #include "workbench/window/widgets/ui.h"
-#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 
@@ -29,7 +30,7 @@ bool role_button(Ui& ui, const PatchMeasures& opening, PatchKind role, const std
 }  // namespace
 
 void draw_role_card(PanelContext& c, const PixelView& screen) {
-    const auto& asked = c.place.role_question();
+    const auto& asked = c.core.get<OpeningsFeature>().role_question();
     if (!asked) return;
     const PatchMeasures opening = *asked;
     const auto at = screen.place(opening.centroid);
@@ -40,7 +41,7 @@ void draw_role_card(PanelContext& c, const PixelView& screen) {
     clipped_text(c.ui, opening_text(opening), c.ui.theme.text, card.width - 3 * pad - line);
     ImGui::SetCursorScreenPos({card.x + card.width - pad - line, card.y + pad});
     if (icon_button(c.ui, "role.close", icons::kClose, "Keep the role  Esc"))
-        return c.place.forget_role_question();
+        return c.core.get<OpeningsFeature>().forget_role_question();
     const float wide = (card.width - 3 * pad) / 2;
     ImGui::SetCursorScreenPos({card.x + pad, card.y + 2 * pad + line});
     std::optional<PatchKind> chosen;
@@ -48,8 +49,8 @@ void draw_role_card(PanelContext& c, const PixelView& screen) {
     ImGui::SameLine(0, pad);
     if (role_button(c.ui, opening, PatchKind::Outlet, "Outlet", wide)) chosen = PatchKind::Outlet;
     if (!chosen) return;
-    if (*chosen == opening.kind) return c.place.forget_role_question();
-    c.place.give_role(*chosen);
+    if (*chosen == opening.kind) return c.core.get<OpeningsFeature>().forget_role_question();
+    c.core.get<OpeningsFeature>().give_role(*chosen);
 }
 
 }  // namespace vesselbench

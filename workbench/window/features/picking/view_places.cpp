@@ -6,11 +6,13 @@
 #include <imgui.h>
 
 #include "geometry/kernel/wording.h"
+#include "workbench/window/core/core.h"
 #include "workbench/window/drawing/model_drawing.h"
+#include "workbench/window/features/brush/brush_feature.h"
+#include "workbench/window/features/openings/openings_feature.h"
 #include "workbench/window/form/picked_text.h"
 #include "workbench/window/widgets/controls.h"
 #include "workbench/window/widgets/ui.h"
-#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 
@@ -48,7 +50,7 @@ std::string coordinates(const Vec3& point) {
 }
 
 /// What is armed, unless it is picked in slices only.
-std::optional<PickTarget> target_in_view(const Workplace& place) {
+std::optional<PickTarget> target_in_view(const Core& place) {
     const std::optional<PickTarget> target = place.armed_target();
     return target && !is_in_slices(*target) ? target : std::nullopt;
 }
@@ -97,25 +99,25 @@ void ViewPlaces::light_opening(const PanelContext& c, const SeenModel& seen) {
     lit_patch_.reset();
     if (!hit() || answer_->picked.element >= seen.surface->triangle_count()) return;
     const std::uint32_t label = (*seen.surface->patch_labels)[answer_->picked.element];
-    if (opening_of(c.place.surface_places(), label) != nullptr) lit_patch_ = label;
+    if (opening_of(c.core.surface_places(), label) != nullptr) lit_patch_ = label;
 }
 
 void ViewPlaces::update(PanelContext& c, const SeenModel& seen) {
     if (const auto picked = picker_.result()) answer_ = Answer{asked_, *picked};
-    if (c.place.is_measuring()) {
-        c.place.forget_role_question();
+    if (c.core.is_measuring()) {
+        c.core.get<OpeningsFeature>().forget_role_question();
         return forget();
     }
-    const SurfacePlaces& places = c.place.surface_places();
-    const std::optional<PickTarget> target = target_in_view(c.place);
+    const SurfacePlaces& places = c.core.surface_places();
+    const std::optional<PickTarget> target = target_in_view(c.core);
     if (seen.clicked) {
         clicked_ = mouse_pixel();
-        c.place.forget_role_question();
+        c.core.get<OpeningsFeature>().forget_role_question();
         if (target) click_time_ = ImGui::GetTime();
     }
     const ViewPixel cursor = clicked_.value_or(mouse_pixel());
-    const bool wanted =
-        !c.place.can_paint() && (target || may_be_over(seen.screen, places.openings, cursor));
+    const bool wanted = !c.core.get<BrushFeature>().can_paint() &&
+                        (target || may_be_over(seen.screen, places.openings, cursor));
     if (seen.surface == nullptr || !wanted || !(seen.over || clicked_)) return forget();
     const Question now{cursor, seen.view.camera, seen.version};
     search(seen, now);
@@ -132,28 +134,28 @@ void ViewPlaces::update(PanelContext& c, const SeenModel& seen) {
 }
 
 void ViewPlaces::take_click(PanelContext& c) {
-    if (c.place.armed_target()) {
-        if (spot_) c.place.pick(spot_->point);
+    if (c.core.armed_target()) {
+        if (spot_) c.core.pick(spot_->point);
         return;
     }
     if (!lit_patch_) return;
-    if (const PatchMeasures* opening = opening_of(c.place.surface_places(), *lit_patch_))
-        c.place.click_opening(*opening);
-    if (!c.place.role_question()) click_time_ = ImGui::GetTime();
+    if (const PatchMeasures* opening = opening_of(c.core.surface_places(), *lit_patch_))
+        c.core.get<OpeningsFeature>().click(*opening);
+    if (!c.core.get<OpeningsFeature>().role_question()) click_time_ = ImGui::GetTime();
 }
 
 void ViewPlaces::draw_offered(const PanelContext& c, const PixelView& screen) const {
     // The markers of all ends say more.
-    if (!c.place.openings().rows().empty() && !c.place.armed_target()) return;
-    for (const NamedPlace& place : offered_in(*c.place.form(), c.place.surface_places()))
+    if (!c.core.get<OpeningsFeature>().openings().rows().empty() && !c.core.armed_target()) return;
+    for (const NamedPlace& place : offered_in(*c.core.form(), c.core.surface_places()))
         if (const auto at = screen.place(place.point)) draw_mark(c.ui, *at, MarkLook::Offered, "");
-    for (const NamedPlace& place : places_in(*c.place.form()))
+    for (const NamedPlace& place : places_in(*c.core.form()))
         if (const auto at = screen.place(place.point))
             draw_mark(c.ui, *at, MarkLook::Picked, place.name);
 }
 
 void ViewPlaces::draw_spot(const PanelContext& c, const PixelView& screen) const {
-    if (!spot_ || !c.place.armed_target()) return;
+    if (!spot_ || !c.core.armed_target()) return;
     const auto at = screen.place(spot_->point);
     if (!at) return;
     ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
@@ -163,8 +165,9 @@ void ViewPlaces::draw_spot(const PanelContext& c, const PixelView& screen) const
 }
 
 void ViewPlaces::draw_opening(PanelContext& c) const {
-    if (!lit_patch_ || c.place.armed_target() || c.place.role_question()) return;
-    const PatchMeasures* opening = opening_of(c.place.surface_places(), *lit_patch_);
+    if (!lit_patch_ || c.core.armed_target() || c.core.get<OpeningsFeature>().role_question())
+        return;
+    const PatchMeasures* opening = opening_of(c.core.surface_places(), *lit_patch_);
     if (opening == nullptr) return;
     c.ui.item("view.opening." + opening->name, spot_rect(mouse_pixel()));
     tooltip(c.ui, opening_text(*opening));
@@ -172,12 +175,12 @@ void ViewPlaces::draw_opening(PanelContext& c) const {
 
 void ViewPlaces::draw(PanelContext& c, const PixelView& screen) const {
     draw_opening(c);
-    if (!c.place.form()) return;
+    if (!c.core.form()) return;
     draw_offered(c, screen);
     draw_spot(c, screen);
-    const SurfacePlaces& places = c.place.surface_places();
-    const auto target = c.place.armed_target();
-    if (c.place.searches_places() && wants_tips(*c.place.form()))
+    const SurfacePlaces& places = c.core.surface_places();
+    const auto target = c.core.armed_target();
+    if (c.core.searches_places() && wants_tips(*c.core.form()))
         draw_hint(c.ui, rect_of(screen), "Finding vessel ends");
     else if (target)
         draw_hint(c.ui, rect_of(screen),

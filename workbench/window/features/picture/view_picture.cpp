@@ -11,9 +11,10 @@
 #include "gpu/png.h"
 #include "gpu/transparency.h"
 #include "workbench/session/task.h"
+#include "workbench/window/core/core.h"
 #include "workbench/window/core/shown.h"
+#include "workbench/window/features/picture/picture_feature.h"
 #include "workbench/window/widgets/ui.h"
-#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 
@@ -93,9 +94,9 @@ void ViewPicture::save(const fs::path& file, const PictureLook& look, const Draw
 
 bool ViewPicture::update(PanelContext& c, const ScreenRect& view, const Draw& draw) {
     Impl& own = *impl_;
-    collect(c.place.document);
+    collect(c.core.document);
     if (own.saving.pending()) return false;
-    const fs::path file = c.place.take_picture_file();
+    const fs::path file = c.core.get<PictureFeature>().take_file();
     if (file.empty()) return false;
     if (draw && !c.shown.picture.is_as_seen()) {
         save(file, c.shown.picture, draw);

@@ -12,12 +12,14 @@
 #include "workbench/suggest/processing_subject.h"
 #include "workbench/suggest/suggestion_search.h"
 #include "workbench/window/case/readable.h"
+#include "workbench/window/core/core.h"
 #include "workbench/window/core/shown.h"
+#include "workbench/window/features/live/live_feature.h"
+#include "workbench/window/features/quality/quality_feature.h"
 #include "workbench/window/features/quality/quality_words.h"
 #include "workbench/window/widgets/controls.h"
 #include "workbench/window/widgets/slider.h"
 #include "workbench/window/widgets/ui.h"
-#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 
@@ -75,20 +77,20 @@ GraphFrame frame_of(const QualityCurve& curve, const ScreenRect& rect) {
 /// What the form says now, which may be newer than the curve.
 double value_now(const PanelContext& c, const OperationForm& form, const QualityCurve& curve) {
     if (const auto typed = number_of(form, curve.name)) return *typed;
-    const auto& model = c.place.live().model();
+    const auto& model = c.core.get<LiveFeature>().live().model();
     const auto& now = model ? model->state.resolved : Arguments();
-    const bool known = now.has(curve.name) && !c.place.live().outdated();
+    const bool known = now.has(curve.name) && !c.core.get<LiveFeature>().live().outdated();
     return known ? now.real(curve.name) : curve.current;
 }
 
 /// What belongs to a filter has no effect until the filter is given, although it is the one that is
 /// taken without.
 void set_value(PanelContext& c, const OperationForm& form, const std::string& name, double value) {
-    const LiveSearch::Answer* answer = c.place.quality().answer();
+    const LiveSearch::Answer* answer = c.core.get<QualityFeature>().quality().answer();
     if (!form.field(name).active && answer != nullptr)
-        c.place.set_field(form.operation().search.filter_parameter, answer->filter);
+        c.core.set_field(form.operation().search.filter_parameter, answer->filter);
     const Parameter& parameter = *form.field(name).parameter;
-    c.place.set_field(name, driven_text(parameter, driven_value(parameter, value, 0.0)));
+    c.core.set_field(name, driven_text(parameter, driven_value(parameter, value, 0.0)));
 }
 
 /// False for a value of the graph that only stands for the surface as it is.
@@ -100,12 +102,12 @@ bool can_set(const OperationForm& form, const QualityCurve& curve, double value)
 /// ImGui's last item sets the parameter while it is pressed; the model follows.
 void handle_press(PanelContext& c, const OperationForm& form, const QualityCurve& curve,
                   const GraphFrame& axis) {
-    if (ImGui::IsItemActivated()) c.place.begin_setting();
-    if (ImGui::IsItemActive() && c.place.is_driving()) {
+    if (ImGui::IsItemActivated()) c.core.get<QualityFeature>().begin_setting();
+    if (ImGui::IsItemActive() && c.core.get<QualityFeature>().is_setting()) {
         const double value = axis.value(ImGui::GetIO().MousePos.x);
         set_value(c, form, curve.name, rounded_on_axis(value, axis.from, axis.to));
     }
-    if (ImGui::IsItemDeactivated() && c.place.is_driving()) c.place.end_drag();
+    if (ImGui::IsItemDeactivated() && c.core.get<QualityFeature>().is_setting()) c.core.end_drag();
 }
 
 void draw_suggestion(PanelContext& c, const OperationForm& form, const QualityCurve& curve,
@@ -193,7 +195,7 @@ void draw_value_line(const PanelContext& c, const GraphFrame& axis, double now) 
 /// The figures at the form's value, where no line over the view has them.
 void draw_figures(const PanelContext& c, const QualityCurve& curve, const QualityScale& scale,
                   double now) {
-    if (c.place.live().has_form()) return;
+    if (c.core.get<LiveFeature>().live().has_form()) return;
     const std::string words = values_at(curve, now, scale);
     wrapped(c.ui, words, c.ui.theme.muted);
     c.ui.item("quality.figures." + curve.name);
@@ -302,7 +304,7 @@ void draw_bars(PanelContext& c, const OperationForm& form, const SensitivityAnal
 // --- suggestions
 
 void draw_target(PanelContext& c, const OperationForm& form) {
-    double& tau = c.place.quality().tau;
+    double& tau = c.core.get<QualityFeature>().quality().tau;
     const bool counts = counts_triangles(form.operation().search);
     slider(c.ui, "quality.tau", tau,
            {.text = formatted(tau, counts ? "Target reduction %.2f" : "Target smoothness %.2f"),
@@ -321,13 +323,13 @@ void draw_target(PanelContext& c, const OperationForm& form) {
 }
 
 void draw_best(PanelContext& c, const OperationForm& form) {
-    const LiveSearch::Answer* const answer = c.place.quality().answer();
+    const LiveSearch::Answer* const answer = c.core.get<QualityFeature>().quality().answer();
     const bool found = answer != nullptr && answer->best;
     const bool known = found && !answer->leave_as_is;
     if (button(c.ui, "quality.best", "Use the best overall",
                {.enabled = known, .width = -1, .help = "Fill in all of these values"})) {
         const Arguments best = *answer->best;
-        c.place.live().follow(true);
+        c.core.get<LiveFeature>().live().follow(true);
         for (const auto& [name, value] : best.values()) set_value(c, form, name, best.real(name));
     }
     std::string words = "Searching";
@@ -360,7 +362,7 @@ void draw_analysis(PanelContext& c, const OperationForm& form,
 }  // namespace
 
 void draw_quality(PanelContext& c, const OperationForm& form) {
-    QualityAnalysis& quality = c.place.quality();
+    QualityAnalysis& quality = c.core.get<QualityFeature>().quality();
     quality.want();
     group_heading(c.ui, "Suggestions");
     space(c.ui, 0.5F);

@@ -4,8 +4,10 @@
 
 #include <imgui.h>
 
+#include "workbench/window/core/core.h"
+#include "workbench/window/features/handles/handles_feature.h"
+#include "workbench/window/features/slices/slices_feature.h"
 #include "workbench/window/widgets/ui.h"
-#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 
@@ -32,11 +34,12 @@ void draw_line(const Ui& ui, const PixelView& screen, const RegionLine& line) {
 
 void SliceCrop::take_shape(const PanelContext& c) {
     shape_ = {};
-    const auto& form = c.place.form();
-    const auto& offered = c.place.offered_box();
+    const auto& form = c.core.form();
+    const auto& offered = c.core.get<HandlesFeature>().offered_box();
     if (!form || !offered) return;
-    shape_ = crop_slice_shape(*form, *offered, plane_, c.place.slices().position(plane_));
-    if (!c.place.armed().empty()) shape_.handles.clear();
+    shape_ = crop_slice_shape(*form, *offered, plane_,
+                              c.core.get<SlicesFeature>().slices().position(plane_));
+    if (!c.core.armed().empty()) shape_.handles.clear();
 }
 
 std::optional<std::size_t> SliceCrop::hot(const PanelContext& c, const PixelView& screen) const {
@@ -57,20 +60,20 @@ void SliceCrop::press(PanelContext& c, const PixelView& screen) {
 }
 
 void SliceCrop::begin(PanelContext& c, State state) {
-    c.place.begin_drag();
+    c.core.begin_drag();
     state_ = state;
 }
 
 void SliceCrop::follow(PanelContext& c, const PixelView& screen) const {
-    const OperationForm& before = *c.place.before_drag();
-    const auto& offered = c.place.offered_box();
+    const OperationForm& before = *c.core.before_drag();
+    const auto& offered = c.core.get<HandlesFeature>().offered_box();
     if (!offered) return;
     if (state_ == State::Rectangle)
-        c.place.drag(crop_rectangle_texts(before, *offered, plane_, start_.point,
-                                          place_at_cursor(screen).point));
+        c.core.drag(crop_rectangle_texts(before, *offered, plane_, start_.point,
+                                         place_at_cursor(screen).point));
     else if (ImGui::GetIO().MouseDelta.x != 0 || ImGui::GetIO().MouseDelta.y != 0)
-        c.place.drag(crop_slice_texts(before, *offered, plane_, *hot_,
-                                      dragged_point(start_, screen, mouse_pixel() - offset_)));
+        c.core.drag(crop_slice_texts(before, *offered, plane_, *hot_,
+                                     dragged_point(start_, screen, mouse_pixel() - offset_)));
 }
 
 void SliceCrop::update(PanelContext& c, const PixelView& screen) {
@@ -78,7 +81,7 @@ void SliceCrop::update(PanelContext& c, const PixelView& screen) {
     if (state_ == State::Idle) {
         hot_ = hot(c, screen);
         const bool pressed = ImGui::IsItemActive() && ImGui::IsMouseClicked(ImGuiMouseButton_Left);
-        const bool free = c.place.offered_box() && c.place.armed().empty();
+        const bool free = c.core.get<HandlesFeature>().offered_box() && c.core.armed().empty();
         if (pressed && free && !ImGui::GetIO().KeyShift) press(c, screen);
         return;
     }
@@ -86,13 +89,13 @@ void SliceCrop::update(PanelContext& c, const PixelView& screen) {
     const bool moved =
         ImGui::GetIO().MouseDragMaxDistanceSqr[ImGuiMouseButton_Left] >= reach * reach;
     if (state_ == State::Pressed && moved) begin(c, State::Rectangle);
-    if (holds_left() && !c.place.before_drag()) state_ = State::Dropped;
+    if (holds_left() && !c.core.before_drag()) state_ = State::Dropped;
     if (state_ == State::Handle || state_ == State::Rectangle) {
         follow(c, screen);
         take_shape(c);
     }
     if (ImGui::IsMouseDown(ImGuiMouseButton_Left)) return;
-    if (state_ == State::Handle || state_ == State::Rectangle) c.place.end_drag();
+    if (state_ == State::Handle || state_ == State::Rectangle) c.core.end_drag();
     state_ = State::Idle;
 }
 

@@ -6,16 +6,18 @@
 
 #include <imgui.h>
 
+#include "workbench/window/core/core.h"
 #include "workbench/window/core/shown.h"
 #include "workbench/window/drawing/screen_places.h"
 #include "workbench/window/drawing/view_overlays.h"
 #include "workbench/window/features/measures/measure_drawing.h"
+#include "workbench/window/features/measures/measures_feature.h"
+#include "workbench/window/features/slices/slices_feature.h"
 #include "workbench/window/form/picked_text.h"
 #include "workbench/window/style/icons.h"
 #include "workbench/window/widgets/controls.h"
 #include "workbench/window/widgets/panel_frame.h"
 #include "workbench/window/widgets/ui.h"
-#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 
@@ -71,7 +73,7 @@ MeasuredOn measured_on(SlicePlane plane) {
 }
 
 /// A click does not move the cross: it is for the armed parameter, or measures a distance.
-bool takes_clicks(const Workplace& place) {
+bool takes_clicks(const Core& place) {
     return place.armed_target() ||
            (place.is_measuring() && place.view.tool == MeasureTool::Distance);
 }
@@ -127,12 +129,12 @@ void SlicePane::handle_wheel(PanelContext& c) {
     turned_ += io.MouseWheel;
     const float slices = std::trunc(turned_);
     turned_ -= slices;
-    c.place.slices().step(plane_, static_cast<int>(slices));
+    c.core.get<SlicesFeature>().slices().step(plane_, static_cast<int>(slices));
 }
 
 void SlicePane::handle_drag(PanelContext& c) {
     const ImGuiIO& io = ImGui::GetIO();
-    ImageSlices& slices = c.place.slices();
+    ImageSlices& slices = c.core.get<SlicesFeature>().slices();
     const bool moved = io.MouseDelta.x != 0 || io.MouseDelta.y != 0;
     if (ImGui::IsMouseDown(ImGuiMouseButton_Right)) {
         if (!moved || slices.shows_labels()) return;
@@ -145,7 +147,7 @@ void SlicePane::handle_drag(PanelContext& c) {
         camera_ = panned(camera_, screen().aspect(), Eigen::Vector2d::Zero(),
                          screen().ndc_move({io.MouseDelta.x, io.MouseDelta.y}));
         fits_ = false;
-    } else if (ImGui::IsMouseDown(ImGuiMouseButton_Left) && !takes_clicks(c.place) && pointed_ &&
+    } else if (ImGui::IsMouseDown(ImGuiMouseButton_Left) && !takes_clicks(c.core) && pointed_ &&
                !crop_.holds_left()) {
         slices.set_cross(*pointed_);
     }
@@ -156,15 +158,17 @@ void SlicePane::handle_click(PanelContext& c) {
     const ImGuiIO& io = ImGui::GetIO();
     const float reach = kClickReach * c.ui.em;
     const bool still = io.MouseDragMaxDistanceSqr[ImGuiMouseButton_Left] < reach * reach;
-    if (!takes_clicks(c.place) || !pointed_ || !still || io.KeyShift ||
-        !c.place.slices().value_at(*pointed_))
+    if (!takes_clicks(c.core) || !pointed_ || !still || io.KeyShift ||
+        !c.core.get<SlicesFeature>().slices().value_at(*pointed_))
         return;
-    if (c.place.is_measuring())
-        return c.place.measures.click(*pointed_, c.place.measured_model(measured_on(plane_)));
-    const auto target = c.place.armed_target();
-    c.place.slices().set_cross(*pointed_);
-    if (target != PickTarget::Labels) return c.place.pick(*pointed_);
-    if (const auto label = c.place.slices().label_at(*pointed_)) c.place.pick_label(*label);
+    if (c.core.is_measuring())
+        return c.core.get<MeasuresFeature>().measures().click(
+            *pointed_, c.core.get<MeasuresFeature>().measured_model(measured_on(plane_)));
+    const auto target = c.core.armed_target();
+    c.core.get<SlicesFeature>().slices().set_cross(*pointed_);
+    if (target != PickTarget::Labels) return c.core.pick(*pointed_);
+    if (const auto label = c.core.get<SlicesFeature>().slices().label_at(*pointed_))
+        c.core.pick_label(*label);
 }
 
 Enlarged enlarged_as(SlicePlane plane) {
@@ -188,11 +192,11 @@ void SlicePane::handle_mouse(PanelContext& c) {
     if (active) handle_drag(c);
     if (over && released) handle_click(c);
     if (!over) return;
-    if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) && !takes_clicks(c.place))
+    if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) && !takes_clicks(c.core))
         switch_enlarged(c.shown, enlarged_as(plane_));
     handle_wheel(c);
     if (c.shown.keys.has(KeyCommand::FrameSlice)) fits_ = true;
-    if (takes_clicks(c.place)) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+    if (takes_clicks(c.core)) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
 }
 
 // --- drawing
@@ -237,8 +241,10 @@ void SlicePane::draw_texts(PanelContext& c, const Ui& ui) const {
     shadowed(ui, {rect_.middle_x(), low - pad / 2}, {0.5F, 1}, colour, letter(-up));
     shadowed(ui, {rect_.x + pad, rect_.y + pad}, {0, 0}, paint_of(plane_), axes_of(plane_).name);
     shadowed(ui, {rect_.x + pad, low - pad}, {0, 1}, colour,
-             position_text(axes_of(plane_).normal, c.place.slices().position(plane_)));
-    if (const std::string& problem = c.place.slices().problem(); !problem.empty())
+             position_text(axes_of(plane_).normal,
+                           c.core.get<SlicesFeature>().slices().position(plane_)));
+    if (const std::string& problem = c.core.get<SlicesFeature>().slices().problem();
+        !problem.empty())
         shadowed(ui, {rect_.middle_x(), rect_.middle_y()}, {0.5F, 0.5F}, colour,
                  fitted("no slice: " + problem, rect_.width - 2 * pad));
     draw_scale_bar(ui, rect_, camera_);
@@ -246,10 +252,10 @@ void SlicePane::draw_texts(PanelContext& c, const Ui& ui) const {
 
 /// Places of the form that lie in this slice.
 void SlicePane::draw_marks(const PanelContext& c, const Ui& ui) const {
-    if (!c.place.form()) return;
+    if (!c.core.form()) return;
     const int normal = axes_of(plane_).normal;
-    const double position = c.place.slices().position(plane_);
-    for (const NamedPlace& place : places_in(*c.place.form())) {
+    const double position = c.core.get<SlicesFeature>().slices().position(plane_);
+    for (const NamedPlace& place : places_in(*c.core.form())) {
         const double away = std::abs(place.point[normal] - position);
         const auto at = screen().place(place.point);
         if (at && away <= kNearSlice * grid_.step[normal])
@@ -266,15 +272,15 @@ void SlicePane::draw_switch(PanelContext& c) const {
                                               faded(c.ui.theme.panel, 0.9),
                                               ImGui::GetStyle().FrameRounding);
     ImGui::SetCursorScreenPos(at);
-    const bool shown = c.place.slices().in_space(plane_);
+    const bool shown = c.core.get<SlicesFeature>().slices().in_space(plane_);
     if (icon_button(c.ui, name, icons::kPreview, "Shown in the 3D view", true, shown))
-        c.place.slices().show_in_space(plane_, !shown);
+        c.core.get<SlicesFeature>().slices().show_in_space(plane_, !shown);
 }
 
 /// \param rect below the picture
 void SlicePane::draw_slider(PanelContext& c, const ScreenRect& rect) const {
     const std::string name = std::string("slice.") + axes_of(plane_).key + ".slider";
-    ImageSlices& slices = c.place.slices();
+    ImageSlices& slices = c.core.get<SlicesFeature>().slices();
     const int normal = axes_of(plane_).normal;
     const double low = grid_.low[normal], extent = grid_.high()[normal] - low;
     const float radius = c.ui.em * 0.36F, left = rect.x + c.ui.grid(1) + radius;
@@ -299,7 +305,7 @@ void SlicePane::draw(PanelContext& c, const PaneSource& source, const ScreenRect
     const float slider = c.ui.em * 1.2F;
     rect_ = {rect.x, rect.y, std::max(1.0F, rect.width), std::max(1.0F, rect.height - slider)};
     begin_frame(c.ui, key, rect, {.back = kBack, .padding = 0, .scrolls = false});
-    place_camera(c.place.slices());
+    place_camera(c.core.get<SlicesFeature>().slices());
     ImGui::InvisibleButton((key + ".area").c_str(), {rect_.width, rect_.height},
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle |
                                ImGuiButtonFlags_MouseButtonRight);
@@ -307,15 +313,16 @@ void SlicePane::draw(PanelContext& c, const PaneSource& source, const ScreenRect
     c.ui.item(key + ".area");
     crop_.update(c, screen());
     handle_mouse(c);
-    place_camera(c.place.slices());
+    place_camera(c.core.get<SlicesFeature>().slices());
     if (!source.guard.run([&] { draw_picture(c.ui, source); })) texture_ = 0;
     if (texture_ != 0) draw_texture(texture_, rect_);
     const Ui overlay = overlay_of(c.ui);
-    draw_cross(overlay, c.place.slices());
+    draw_cross(overlay, c.core.get<SlicesFeature>().slices());
     draw_texts(c, overlay);
     draw_marks(c, overlay);
     const int normal = axes_of(plane_).normal;
-    draw_measures_in_slice(c, screen(), normal, c.place.slices().position(plane_),
+    draw_measures_in_slice(c, screen(), normal,
+                           c.core.get<SlicesFeature>().slices().position(plane_),
                            kNearSlice * grid_.step[normal]);
     crop_.draw(c, screen());
     draw_switch(c);

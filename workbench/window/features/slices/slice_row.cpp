@@ -7,12 +7,13 @@
 
 #include "geometry/kernel/wording.h"
 #include "workbench/window/case/readable.h"
+#include "workbench/window/core/core.h"
 #include "workbench/window/core/shown.h"
+#include "workbench/window/features/slices/slices_feature.h"
 #include "workbench/window/style/icons.h"
 #include "workbench/window/widgets/controls.h"
 #include "workbench/window/widgets/panel_frame.h"
 #include "workbench/window/widgets/ui.h"
-#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 
@@ -67,7 +68,7 @@ std::optional<double> SliceRow::edit(PanelContext& c, const std::string& name, T
 }
 
 void SliceRow::draw_grey(PanelContext& c, bool narrow) {
-    ImageSlices& slices = c.place.slices();
+    ImageSlices& slices = c.core.get<SlicesFeature>().slices();
     const GreyWindow grey = slices.grey();
     label(c, "Window", narrow);
     if (const auto window = edit(c, "slices.window", window_, grey.window))
@@ -87,7 +88,7 @@ void SliceRow::draw_grey(PanelContext& c, bool narrow) {
 }
 
 void SliceRow::draw_toggles(PanelContext& c) const {
-    ImageSlices& slices = c.place.slices();
+    ImageSlices& slices = c.core.get<SlicesFeature>().slices();
     ImGui::SameLine(0, c.ui.grid(2));
     toggle(c, "slices.outline", icons::kVessel, "The surface's outline", slices.outline_shown);
     if (!slices.has_mask()) return;
@@ -102,7 +103,7 @@ void SliceRow::draw_pointed(PanelContext& c, float right) const {
         std::ranges::find_if(panes_, [](const SlicePane& p) { return p.pointed().has_value(); });
     if (pane == panes_.end()) return;
     const Vec3 point = *pane->pointed();
-    const std::string value = value_words(c.place.slices(), point);
+    const std::string value = value_words(c.core.get<SlicesFeature>().slices(), point);
     if (value.empty()) return;
     ImGui::SameLine();
     ImGui::PushFont(c.ui.fonts.small);
@@ -119,7 +120,7 @@ void SliceRow::draw_header(PanelContext& c, const ScreenRect& rect) {
     const float pad = c.ui.grid(0.5F), side = ImGui::GetFrameHeight();
     begin_frame(c.ui, "slices", rect, {.padding = pad, .scrolls = false});
     ImGui::SetCursorPosX(c.ui.grid(1));
-    if (c.place.slices().shows_labels()) {
+    if (c.core.get<SlicesFeature>().slices().shows_labels()) {
         ImGui::AlignTextToFramePadding();
         text(c.ui, "Labels", c.ui.theme.muted);
     } else {
@@ -129,13 +130,13 @@ void SliceRow::draw_header(PanelContext& c, const ScreenRect& rect) {
     const float right = rect.x + rect.width - pad - side, before = right - side - pad;
     draw_pointed(c, before - c.ui.grid(1));
     ImGui::SetCursorScreenPos({before, rect.y + pad});
-    PanelSizes& panels = c.place.settings.panels;
+    PanelSizes& panels = c.core.settings.panels;
     toggle(c, "slices.quarters", icons::kGrid, "The model and the slices in two rows of two",
            panels.quarters);
-    if (ImGui::IsItemDeactivated()) c.place.settings.save_soon();
+    if (ImGui::IsItemDeactivated()) c.core.settings.save_soon();
     ImGui::SetCursorScreenPos({right, rect.y + pad});
     if (icon_button(c.ui, "slices.close", icons::kClose, "Close the slices  I"))
-        c.place.slices().show_row(false);
+        c.core.get<SlicesFeature>().slices().show_row(false);
     end_frame();
 }
 

@@ -1,4 +1,4 @@
-#include "workbench/window/features/history/history_tree.h"
+#include "workbench/window/case/history_tree.h"
 
 #include <map>
 #include <set>

@@ -1,0 +1,8 @@
+#pragma once
+
+namespace vesselbench {
+
+/// What a file is asked for.
+enum class FileQuestion { None, Open, SaveCopy, Export, Parameter, Picture, Measures, SaveRecipe };
+
+}  // namespace vesselbench
