@@ -269,6 +269,14 @@ void new_case(Photographer& p) {
     p.wait();
     p.rest_mouse();
     p.take("image");
+    p.click("slices.quarters");
+    p.rest_mouse();
+    p.take("quarters");
+    p.click("slices.quarters");
+    for (int i = 0; i < 2; ++i) p.shell.click_item("slice.coronal.area");
+    p.rest_mouse();
+    p.take("enlarged-slice");
+    p.shell.press_key(keys::kEscape);
     extraction(p);
     live(p);
     p.click("tool.prepare");

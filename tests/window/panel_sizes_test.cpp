@@ -4,8 +4,9 @@
 
 #include <catch2/catch.hpp>
 
+#include "geometry/formats/image_file.h"
+#include "tests/support/image_shapes.h"
 #include "tests/support/shapes.h"
-#include "tests/support/stack_phantoms.h"
 #include "tests/window/window_support.h"
 #include "workbench/window/core/layout.h"
 #include "workbench/window/core/settings.h"
@@ -130,6 +131,44 @@ SCENARIO("The sizes of panels are remembered", "[window][panels]") {
     settings.panels.quarters = true;
     REQUIRE(settings.save());
     CHECK(Settings(folder).panels == settings.panels);
+}
+
+SCENARIO("Slices are in a row, in quarters with the model, or enlarged", "[window][panels]") {
+    const auto shell = test_shell();
+    if (!shell) return;
+    const std::string file = temporary_folder() + "/image.mha";
+    write_image(file, image_of({40, 36, 28}, Eigen::Matrix4d::Identity(), [](const Vec3& p) {
+                    return (p - Vec3(20, 18, 14)).norm() < 8 ? 900 : 100;
+                }));
+    open_and_wait(*shell, file);
+    REQUIRE(shell->has("slice.coronal.area"));
+    const auto rect = [&](const std::string& name) {
+        return shell->app().ui().items().at(name).rect;
+    };
+    const ScreenRect row = rect("slice.coronal.area");
+    WHEN("they are put in quarters") {
+        REQUIRE(shell->click_item("slices.quarters"));
+        REQUIRE(shell->settle(10s));
+        CHECK(rect("slice.axial.area").y == Approx(view_of(*shell).y).margin(2));
+        CHECK(rect("slice.axial.area").x > view_of(*shell).x + view_of(*shell).width - 1);
+        CHECK(rect("slice.coronal.area").width > 1.3F * row.width);
+        CHECK(rect("slice.sagittal.area").y > view_of(*shell).y + view_of(*shell).height);
+    }
+    WHEN("one is clicked twice") {
+        double_click(*shell, row.middle_x(), row.y + row.height / 2);
+        REQUIRE(shell->settle(10s));
+        CHECK(rect("slice.coronal.area").width > 1.8F * row.width);
+        CHECK(rect("slice.coronal.area").height > 1.5F * row.height);
+        CHECK_FALSE(shell->has("slice.axial.area"));
+        CHECK(shell->has("view.area"));
+        shell->press_key(keys::kEscape);
+        REQUIRE(shell->settle(10s));
+        CHECK(rect("slice.coronal.area") == row);
+    }
+    WHEN("their border is dragged") {
+        drag_border(*shell, "border.slices", 0, -50);
+        CHECK(rect("slice.coronal.area").height == Approx(row.height + 50).margin(4));
+    }
 }
 
 SCENARIO("Borders resize and fold panels by mouse", "[window][panels]") {

@@ -45,6 +45,12 @@ struct ViewMouse {
     bool released = false;    ///< the left button, after a press in the view
 };
 
+/// A double click on ImGui's last item, at its end: its press may be for a control over the item.
+bool double_clicked() {
+    return ImGui::IsItemDeactivated() && ImGui::IsMouseReleased(ImGuiMouseButton_Left) &&
+           ImGui::GetIO().MouseClickedLastCount[ImGuiMouseButton_Left] == 2;
+}
+
 }  // namespace
 
 struct Viewport::Impl {
@@ -220,7 +226,7 @@ void Viewport::Impl::handle_mouse(PanelContext& c) {
     const bool busy = c.place.get<BrushFeature>().can_paint() ||
                       c.place.view.tool != MeasureTool::None || camera.is_inside() ||
                       places.took_click() || handles.has_cursor() || ends.has_cursor();
-    if (busy || !scene.is_drawn() || !ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) return;
+    if (busy || !scene.is_drawn() || !double_clicked()) return;
     look();
     camera.request_centre(scene.scene_view(c.ui), scene.layers(c.ui),
                           screen().device_pixel(mouse_on_model()));
