@@ -7,6 +7,7 @@
 
 #include "geometry/kernel/wording.h"
 #include "workbench/window/case/readable.h"
+#include "workbench/window/core/layout.h"
 #include "workbench/window/core/shown.h"
 #include "workbench/window/features/gallery/gallery_view.h"
 #include "workbench/window/panels/message_panel.h"
@@ -152,7 +153,7 @@ void draw_banners(PanelContext& c, const ScreenRect& view) {
     const Document& document = c.place.document;
     if (!document.is_open()) return;
     const float gap = c.ui.grid(1.5F);
-    const float tools = c.ui.em * 19.5F;  // the view's buttons
+    const float tools = c.ui.em * kViewToolsWidth;
     ScreenRect place{view.x + tools, view.y + gap, view.width - tools - gap, 0};
     if (c.place.gallery().mode() == GalleryMode::Spots) place = beside_spots(c.ui, view, gap);
     if (document.failure() && !is_about_form(c)) {

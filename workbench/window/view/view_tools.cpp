@@ -5,6 +5,7 @@
 #include <imgui.h>
 
 #include "workbench/operations/table.h"
+#include "workbench/window/core/layout.h"
 #include "workbench/window/core/shown.h"
 #include "workbench/window/drawing/view_overlays.h"
 #include "workbench/window/style/icons.h"
@@ -136,9 +137,11 @@ void draw_legend(const PanelContext& c, const ViewScene& scene, ClippedCount& cl
 void draw_empty_view(PanelContext& c, const ViewScene& scene) {
     const ScreenRect& rect = scene.rect();
     const float wide = c.ui.em * 12, x = rect.middle_x(), y = rect.middle_y();
-    if (scene.has_content()) {  // the image's planes; beside them
-        ImGui::SetCursorScreenPos(
-            {rect.x + rect.width - wide - c.ui.grid(1.5F), rect.y + c.ui.grid(1.5F)});
+    if (scene.has_content()) {  // the image's planes; beside them, and below buttons without room
+        const float gap = c.ui.grid(1.5F);
+        const bool beside = rect.width > kViewToolsWidth * c.ui.em + wide + 2 * gap;
+        const float below = beside ? 0.0F : ImGui::GetFrameHeight() + c.ui.grid(3);
+        ImGui::SetCursorScreenPos({rect.x + rect.width - wide - gap, rect.y + gap + below});
     } else {
         const std::string words = empty_words(c, scene);
         ImGui::SetCursorScreenPos({x - ImGui::CalcTextSize(words.c_str()).x / 2, y - c.ui.em * 2});
