@@ -40,18 +40,15 @@ std::vector<VertexId> independent_set(const DrawingLayout& layout) {
 
 std::vector<Triangle> coarse_triangles(const DrawingLayout& layout) {
     const std::vector<VertexId> stands_for = independent_set(layout);
-    const std::size_t count = stands_for.size();
-    const auto original = [&](VertexId drawn) {
-        return drawn < count ? drawn : layout.extras[drawn - count];
-    };
     const auto place_of = [&](VertexId drawn) {
-        const VertexId v = original(drawn);
+        const VertexId v = layout.original_of(drawn);
         return stands_for[v] == v ? drawn : stands_for[v];
     };
     std::vector<Triangle> triangles;
     for (const Triangle& t : layout.triangles) {
         const Triangle coarse{place_of(t[0]), place_of(t[1]), place_of(t[2])};
-        const VertexId a = original(coarse[0]), b = original(coarse[1]), c = original(coarse[2]);
+        const VertexId a = layout.original_of(coarse[0]), b = layout.original_of(coarse[1]),
+                       c = layout.original_of(coarse[2]);
         if (a != b && b != c && c != a) triangles.push_back(coarse);
     }
     return triangles;

@@ -198,8 +198,7 @@ std::array<std::size_t, 2> DrawingLayout::extras_of(VertexId v) const {
 }
 
 VertexId original_of(const DrawingArrays& drawing, std::size_t drawn) {
-    const std::size_t count = drawing.surface.vertex_count();
-    return drawn < count ? static_cast<VertexId>(drawn) : drawing.layout->extras[drawn - count];
+    return drawing.layout->original_of(drawn);
 }
 
 std::vector<std::uint32_t> drawn_copies(const DrawingLayout& layout, std::size_t vertex_count,

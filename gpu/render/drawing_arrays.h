@@ -33,6 +33,12 @@ struct DrawingLayout {
     std::shared_ptr<const Topology> topology;  ///< of that surface
     std::shared_ptr<const PatchLabels> patch_labels;  ///< of that surface
 
+    /// The surface's vertex that a drawn vertex is a copy of.
+    [[nodiscard]] VertexId original_of(std::size_t drawn) const {
+        const std::size_t count = tags.size() - extras.size();
+        return drawn < count ? static_cast<VertexId>(drawn) : extras[drawn - count];
+    }
+
     /// Drawn vertices #V + first ... #V + last - 1 are the further copies of a vertex.
     [[nodiscard]] std::array<std::size_t, 2> extras_of(VertexId v) const;
 };

@@ -59,9 +59,10 @@ struct NearestPlace {
 [[nodiscard]] double tip_radius(const CenterlineGraph& graph, std::size_t tip);
 
 /// The tip that a point means: the nearest one, if it is near; else none.
-/// \param reach largest distance from the point [radii of the tip, tip_radius]
+/// \param reach largest distance from the point [radii of the tip, tip_radius]; by default far enough
+///        for a tip that another edit has moved a little
 [[nodiscard]] std::optional<std::size_t> tip_near(const CenterlineGraph& graph,
-                                                  const Vec3& position, double reach);
+                                                  const Vec3& position, double reach = 3.0);
 
 /// The branch that ends at a tip. \throw InvalidInput if the node is not a tip
 [[nodiscard]] std::size_t branch_of_tip(const CenterlineGraph& graph, std::size_t tip);

@@ -16,9 +16,6 @@ namespace {
 
 /// A point so near to a tip means it; otherwise it gets a line of its own [radii of the tip].
 constexpr double kOwnLineBeyond = 1.0;
-/// A branch's name survives an edit before it if its tip moves by less than this [radii of the
-/// tip].
-constexpr double kTipReach = 3.0;
 
 constexpr VertexId kNoVertex = std::numeric_limits<VertexId>::max();
 
@@ -45,7 +42,7 @@ Surface chosen_part(const Surface& surface, const std::vector<std::uint8_t>& cho
 
 NamedBranch branch_at_tip(const Surface& surface, const Vec3& point, const Progress& progress) {
     auto graph = lines_to_tip(surface, point, kOwnLineBeyond, progress);
-    const auto tip = tip_near(*graph, point, kTipReach);
+    const auto tip = tip_near(*graph, point);
     if (!tip) throw AlgorithmFailure("no branch has its tip near " + place_text(point));
     return {std::move(graph), *tip};
 }

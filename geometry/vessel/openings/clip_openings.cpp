@@ -26,8 +26,6 @@ constexpr double kKeptFlatness = 1e-5;
 /// this fraction of its diameter.
 constexpr double kSamePlace = 1e-6;
 constexpr double kSameCap = 0.2;  // diameters
-/// A stub whose tip is farther from where it was planned is gone [radii of the tip].
-constexpr double kTipReach = 3.0;
 /// A cut that takes a larger share of the wall away is turned the wrong way.
 constexpr double kMostCutOff = 0.75;
 
@@ -299,7 +297,7 @@ private:
 
     void remove_stub(const Vec3& tip) {
         if (graph_ == nullptr) throw AlgorithmFailure("a stub's removal needs centerlines");
-        if (const auto node = tip_near(*graph_, tip, kTipReach))
+        if (const auto node = tip_near(*graph_, tip))
             result_ = remove_branch(result_, *graph_, *node).surface;
     }
 

@@ -129,7 +129,7 @@ std::size_t tip_to_open(const CenterlineGraph& graph, const Vec3& point) {
     const auto tip = nearest_tip(graph, point);
     if (!tip) throw AlgorithmFailure("the vessels have no tip that could be opened");
     const Vec3& found = graph.nodes[*tip].position;
-    if ((found - point).norm() > kFarthestTip * tip_radius(graph, *tip))
+    if (!tip_near(graph, point, kFarthestTip))
         throw DiagnosedFailure({.code = "no-tip-near",
                                 .operation = "clip-opening",
                                 .place = found,

@@ -75,7 +75,9 @@ public:
     /// The place under the mouse becomes the centre of turns as soon as it is found, unless the
     /// view is moved before.
     void request_centre(const SceneView& view, const Layers& layers, const Eigen::Vector2i& pixel);
-    /// \return true if it is the background
+
+    /// Once a frame: takes the centre that was asked for, if it is found by now.
+    /// \return true if the background was found instead
     [[nodiscard]] bool take_centre();
 
     // --- the lumen
