@@ -132,9 +132,21 @@ private:
                 return point(parameter);
             case ParameterType::List:
                 return list(parameter);
+            case ParameterType::Records:
+                return records(parameter);
             default:
                 return files_.one_for(operation_, parameter.name, dice_);
         }
+    }
+
+    Value records(const Parameter& parameter) {
+        Records drawn;
+        for (int left = dice_.whole(1, 3); left > 0; --left) {
+            Arguments record;
+            for (const Parameter& field : parameter.fields) record.set(field.name, value(field));
+            drawn.add(std::move(record));
+        }
+        return drawn;
     }
 
     std::int64_t integer(const Parameter& parameter) {
@@ -189,7 +201,6 @@ private:
         std::string words = one_of(names(), dice_);
         const bool several = meaning == Meaning::Names || meaning == Meaning::Openings;
         if (several && dice_.chance(0.4)) words += "," + one_of(names(), dice_);
-        if (meaning == Meaning::Patches) words = "outlet:" + words;
         return words;
     }
 

@@ -199,11 +199,11 @@ SCENARIO("Copies of records share their list until one is added to", "[workbench
     records.add(mark({4, 5, 6}, 2, "hard", "b"));
     CHECK(before.list().size() == 1);
     CHECK(records.list().size() == 2);
-    records.add(records);
+    records.append(records);
     CHECK(records.list().size() == 4);
     CHECK(records.list()[3] == records.list()[1]);
     CHECK_FALSE(records == before);
     Records none;
-    none.add(before);
+    none.append(before);
     CHECK(none == before);
 }

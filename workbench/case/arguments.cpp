@@ -75,7 +75,7 @@ void Records::add(Arguments record) {
     own().push_back(std::move(record));
 }
 
-void Records::add(const Records& more) {
+void Records::append(const Records& more) {
     const Records added = more;  // may share this one's list
     std::vector<Arguments>& list = own();
     list.insert(list.end(), added.list().begin(), added.list().end());

@@ -25,7 +25,7 @@ public:
     [[nodiscard]] const std::vector<Arguments>& list() const;
 
     void add(Arguments record);
-    void add(const Records& more);
+    void append(const Records& more);
 
     bool operator==(const Records& other) const;
 

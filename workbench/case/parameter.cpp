@@ -35,14 +35,10 @@ std::string allowed_range(const Parameter& parameter) {
 /// The names in a text, as far as they have to follow the grammar of names.
 std::vector<std::string> names_in(const Parameter& parameter, const std::string& text) {
     if (parameter.meaning == Meaning::Name) return {text};
-    if (parameter.meaning != Meaning::Names && parameter.meaning != Meaning::Openings &&
-        parameter.meaning != Meaning::Patches)
-        return {};
+    if (parameter.meaning != Meaning::Names && parameter.meaning != Meaning::Openings) return {};
     std::vector<std::string> names;
     std::istringstream list(text);
-    for (std::string entry; std::getline(list, entry, ',');)
-        names.push_back(parameter.meaning == Meaning::Patches ? entry.substr(entry.find(':') + 1)
-                                                              : entry);
+    for (std::string entry; std::getline(list, entry, ',');) names.push_back(entry);
     return names;
 }
 
@@ -53,9 +49,6 @@ std::string wanted_text(const Parameter& parameter) {
         case Meaning::Names:
         case Meaning::Openings:
             return "names of " + plain_name_rule() + ", separated by commas";
-        case Meaning::Patches:
-            return "kind:name of each opening, separated by commas, the names of " +
-                   plain_name_rule();
         default:
             return "a text";
     }

@@ -24,7 +24,6 @@ enum class Meaning {
     Name,      ///< of an opening, attribute or neighbour (geometry/kernel/plain_name.h)
     Names,     ///< several, separated by commas
     Openings,  ///< names of openings, separated by commas
-    Patches,   ///< kind:name of openings, separated by commas
     Planes,    ///< openings as planes
     Unit,      ///< of the model's lengths: another one moves every place
     Dabs       ///< of a brush

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "geometry/kernel/errors.h"
+#include "workbench/operations/shared/opening_arguments.h"
 
 namespace vesselbench {
 
@@ -111,29 +112,23 @@ std::vector<Parameter> choice_parameters() {
 
 /// What an earlier run decided.
 std::vector<Parameter> resolved_parameters() {
-    using enum ParameterType;
-    return {
-        {.name = "planes",
-         .type = List,
-         .unit = "mm",
-         .help = "decisions of an earlier run, 10 numbers per opening: tip, point of the "
-                 "plane, unit normal out of the vessel, 1 if a good cap was kept, 2 if a flat "
-                 "rim was capped as it is, 3 if only its name changed; they are used as they are",
-         .meaning = Meaning::Planes,
-         .use = Use::Recorded},
-        {.name = "names",
-         .type = Text,
-         .help = "with planes: kind:name of each opening, separated by commas",
-         .meaning = Meaning::Patches,
-         .use = Use::Recorded},
-        {.name = "closings",
-         .type = List,
-         .unit = "mm",
-         .help = "with planes: decisions of an earlier run, 4 numbers per end without an "
-                 "opening: place, 0 if its rim was closed, 1 if its cap became wall, 2 if its "
-                 "stub was removed",
-         .meaning = Meaning::Planes,
-         .use = Use::Recorded}};
+    return {{.name = "planes",
+             .type = ParameterType::Records,
+             .help = "decisions of an earlier run: the openings, which are made as they are",
+             .meaning = Meaning::Planes,
+             .use = Use::Recorded,
+             .fields = plane_fields()},
+            {.name = "names",
+             .type = ParameterType::Records,
+             .help = "with planes: role and name of each opening",
+             .use = Use::Recorded,
+             .fields = name_fields()},
+            {.name = "closings",
+             .type = ParameterType::Records,
+             .help = "with planes: decisions of an earlier run: the ends without an opening",
+             .meaning = Meaning::Planes,
+             .use = Use::Recorded,
+             .fields = closing_fields()}};
 }
 
 }  // namespace

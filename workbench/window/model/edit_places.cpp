@@ -1,5 +1,6 @@
 #include "workbench/window/model/edit_places.h"
 
+#include "geometry/kernel/errors.h"
 #include "workbench/operations/shared/opening_arguments.h"
 #include "workbench/operations/table.h"
 #include "workbench/window/model/pick_target.h"
@@ -16,6 +17,17 @@ std::vector<double> list_in(const Operation& operation, const Arguments& argumen
     const Parameter* parameter = parameter_of(operation, meaning);
     return parameter != nullptr && arguments.has(parameter->name) ? arguments.list(parameter->name)
                                                                   : std::vector<double>();
+}
+
+/// Empty if there are none; a damaged project may hold anything in their place.
+Records records_in(const Operation& operation, const Arguments& arguments, Meaning meaning) {
+    const Parameter* parameter = parameter_of(operation, meaning);
+    if (parameter == nullptr || !arguments.has(parameter->name)) return {};
+    try {
+        return std::get<Records>(checked_value(*parameter, arguments.values().at(parameter->name)));
+    } catch (const UsageError&) {
+        return {};
+    }
 }
 
 /// Points that the user can pick.
@@ -42,7 +54,7 @@ Positions places_of_edit(const LogEntry& entry) {
     }
     Positions places;
     for (const PlannedOpening& opening :
-         openings_in(list_in(operation, arguments, Meaning::Planes)))
+         openings_in(records_in(operation, arguments, Meaning::Planes)))
         places.push_back(opening.place.plane.point);
     return places.empty() ? points_in(operation, arguments) : places;
 }
