@@ -190,7 +190,6 @@ SCENARIO("Places follow a model into another unit, sizes keep their numbers", "[
                                    {.name = "normal", .type = Point, .unit = "-"},
                                    {.name = "reach", .unit = "mm"},
                                    {.name = "way", .type = Choice}}},
-                       {.name = "dabs", .type = List, .unit = "mm", .meaning = Meaning::Dabs},
                        {.name = "distance", .unit = "mm"},
                        {.name = "share", .unit = "-"},
                        {.name = "units", .type = Text, .meaning = Meaning::Unit}}};
@@ -211,7 +210,6 @@ SCENARIO("Places follow a model into another unit, sizes keep their numbers", "[
     CHECK(scaled.list("open") == Numbers{10, 20, 30, 40, 50, 60});
     CHECK(scaled.records("planes") ==
           vesselbench::Records({plane({10, 20, 30}, 40), plane({40, 50, 60}, 70)}));
-    CHECK(scaled.list("dabs") == Numbers{10, 20, 30, 0, 0, 1, 40, 50, 0.5, 1});
     CHECK(scaled.real("distance") == 7.0);
     CHECK(given_sizes(operation, given) == std::vector<std::string>{"distance"});
     const Arguments in_mm = {{"units", std::string("mm")}}, in_m = {{"units", std::string("m")}};

@@ -210,8 +210,6 @@ private:
                 return dice_.chance(0.8) ? std::vector<double>{1} : std::vector<double>{1, 2};
             case Meaning::Box:
                 return box();
-            case Meaning::Dabs:
-                return dabs();
             default:
                 return numbers(10 * dice_.whole(0, 2) + 3 * dice_.whole(0, 2));
         }
@@ -222,18 +220,6 @@ private:
         const Vec3 low = a.cwiseMin(b) - Vec3::Constant(dice_.between(0, 3));
         const Vec3 high = a.cwiseMax(b) + Vec3::Constant(dice_.between(0, 3));
         return {low.x(), low.y(), low.z(), high.x(), high.y(), high.z()};
-    }
-
-    std::vector<double> dabs() {
-        std::vector<double> all;
-        for (int left = dice_.whole(1, 3); left > 0; --left) {
-            const Vec3 p = on_surface(), n = dice_.direction();
-            for (const double number :
-                 {p.x(), p.y(), p.z(), n.x(), n.y(), n.z(), dice_.between(0.5, 4),
-                  dice_.between(0.3, 4), dice_.unit(), dice_.unit()})
-                all.push_back(number);
-        }
-        return all;
     }
 
     std::vector<double> numbers(int count) {

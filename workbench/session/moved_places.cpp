@@ -17,7 +17,7 @@ double millimetres_in(const std::string& unit) {
 
 bool is_place(const Parameter& parameter) {
     using enum Meaning;
-    constexpr Meaning kPlaces[] = {Place, Tip, Branch, Inlet, Seed, Box, Dabs};
+    constexpr Meaning kPlaces[] = {Place, Tip, Branch, Inlet, Seed, Box};
     return parameter.type == ParameterType::Records ||
            (parameter.unit == "mm" && std::ranges::count(kPlaces, parameter.meaning) > 0);
 }
@@ -36,13 +36,6 @@ Records scaled(const Parameter& parameter, const Records& records, double factor
     }
     return result;
 }
-
-/// Which numbers of a list are lengths; the others are directions and choices.
-using Layout = std::vector<bool>;
-
-const Layout kPoint = {true, true, true};
-/// Point, normal, local radius, radius of the brush, strength, falloff.
-const Layout kDab = {true, true, true, false, false, false, true, true, false, false};
 
 }  // namespace
 
@@ -65,9 +58,7 @@ Arguments with_scaled_places(const Operation& operation, Arguments given, double
             given.set(parameter.name, Vec3(factor * *point));
         } else if (const auto* list = std::get_if<std::vector<double>>(&value)) {
             std::vector<double> numbers = *list;
-            const Layout& layout = parameter.meaning == Meaning::Dabs ? kDab : kPoint;
-            for (std::size_t i = 0; i < numbers.size(); ++i)
-                if (layout[i % layout.size()]) numbers[i] *= factor;
+            for (double& number : numbers) number *= factor;
             given.set(parameter.name, std::move(numbers));
         } else if (const auto* records = std::get_if<Records>(&value)) {
             given.set(parameter.name, scaled(parameter, *records, factor));
