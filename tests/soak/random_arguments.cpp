@@ -96,18 +96,13 @@ private:
     }
 
     void add(const Parameter& parameter) {
-        if (is_decision(parameter) && !dice_.chance(kOdd)) return;
+        // Replays give them, users hardly.
+        if (parameter.use == Use::Decision && !dice_.chance(kOdd)) return;
         if (parameter.name == "device") return;  // results of a GPU are equal to a tolerance only
         if (parameter.only_with && left_out_.contains(parameter.only_with->parameter)) return;
         if (parameter.only_with && !drawn_.has(parameter.only_with->parameter))
             drawn_.set(parameter.only_with->parameter, met(*parameter.only_with));
         drawn_.set(parameter.name, value(parameter));
-    }
-
-    /// What an earlier run decided: replays give it, users hardly.
-    static bool is_decision(const Parameter& parameter) {
-        return parameter.help.find("decisions of an earlier run") != std::string::npos ||
-               parameter.help.starts_with("with planes");
     }
 
     /// A value with which the condition most likely holds.

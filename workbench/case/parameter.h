@@ -38,11 +38,14 @@ struct Condition {
 
 [[nodiscard]] std::string to_string(const Condition& condition);  ///< "filter=a or b", "tip"
 
-/// How forms show a parameter.
+/// How forms and pages show a parameter.
 enum class Use {
     Usual,
     Rare,     ///< with others that are seldom needed, folded away unless it is given
-    Recorded  ///< an earlier run or a stroke fills it in: shown only where it is given
+    IfGiven,  ///< only where it is given: another name of a parameter
+    /// What a run decides and its edit stores beside its arguments, for runs on other input: no
+    /// field of a form and no parameter of a page. A tool, a recipe or a command may give it.
+    Decision
 };
 
 /// One documented parameter: the command line's option, the check and its error text, the recipe's

@@ -165,7 +165,6 @@ std::vector<Parameter> dab_parameters(double weakest, const std::string& strengt
              .type = ParameterType::Records,
              .help = "the stroke, dab by dab; or use at",
              .meaning = Meaning::Dabs,
-             .use = Use::Recorded,
              .fields = dab_fields(weakest, strength)},
             {.name = "at",
              .type = Point,

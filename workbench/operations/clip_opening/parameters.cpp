@@ -110,24 +110,24 @@ std::vector<Parameter> choice_parameters() {
              .use = Use::Rare}};
 }
 
-/// What an earlier run decided.
-std::vector<Parameter> resolved_parameters() {
+/// What a run decides.
+std::vector<Parameter> decision_parameters() {
     return {{.name = "planes",
              .type = ParameterType::Records,
-             .help = "decisions of an earlier run: the openings, which are made as they are",
+             .help = "the openings, which are made as they are",
              .meaning = Meaning::Planes,
-             .use = Use::Recorded,
+             .use = Use::Decision,
              .fields = plane_fields()},
             {.name = "names",
              .type = ParameterType::Records,
-             .help = "with planes: role and name of each opening",
-             .use = Use::Recorded,
+             .help = "role and name of each opening of planes, in their order",
+             .use = Use::Decision,
              .fields = name_fields()},
             {.name = "closings",
              .type = ParameterType::Records,
-             .help = "with planes: decisions of an earlier run: the ends without an opening",
+             .help = "with planes: what becomes of ends without an opening",
              .meaning = Meaning::Planes,
-             .use = Use::Recorded,
+             .use = Use::Decision,
              .fields = closing_fields()}};
 }
 
@@ -136,7 +136,7 @@ std::vector<Parameter> resolved_parameters() {
 std::vector<Parameter> clip_opening_parameters() {
     std::vector<Parameter> all = place_parameters();
     for (Parameter& parameter : choice_parameters()) all.push_back(std::move(parameter));
-    for (Parameter& parameter : resolved_parameters()) all.push_back(std::move(parameter));
+    for (Parameter& parameter : decision_parameters()) all.push_back(std::move(parameter));
     return all;
 }
 
