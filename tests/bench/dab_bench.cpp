@@ -76,10 +76,11 @@ Surface tube(double triangles) {
 }
 
 Records dab_at(double z, double radius) {
-    return listed({.anchor = {.point = {0, -4, z}, .normal = {0, -1, 0}, .radius = 4},
-                   .radius = radius,
-                   .strength = 0.5,
-                   .falloff = 1.0});
+    const Dab dab{.anchor = {.point = {0, -4, z}, .normal = {0, -1, 0}, .radius = 4},
+                  .radius = radius,
+                  .strength = 0.5,
+                  .falloff = 1.0};
+    return listed({&dab, 1});
 }
 
 void print(const Part& part) {

@@ -135,13 +135,13 @@ private:
     }
 
     Value records(const Parameter& parameter) {
-        Records drawn;
+        std::vector<Arguments> drawn;
         for (int left = dice_.whole(1, 3); left > 0; --left) {
             Arguments record;
             for (const Parameter& field : parameter.fields) record.set(field.name, value(field));
-            drawn.add(std::move(record));
+            drawn.push_back(std::move(record));
         }
-        return drawn;
+        return Records(std::move(drawn));
     }
 
     std::int64_t integer(const Parameter& parameter) {

@@ -147,8 +147,7 @@ SCENARIO("A project with flat lists in place of records opens, replays and is un
     WHEN("the input of decided openings changes") {
         const Records planes = session.log()[2].result->resolved.records("planes");
         CHECK(planes.list().size() == 2);
-        Records dabs;
-        dabs.add(session.log()[1].edit.given.records("dabs").list()[0]);
+        const Records dabs({session.log()[1].edit.given.records("dabs").list()[0]});
         session.change_edit(session.log()[1].edit.edit.id, {{"dabs", dabs}});
         static_cast<void>(session.scene());
         THEN("they are made where they were") {

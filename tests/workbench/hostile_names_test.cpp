@@ -181,9 +181,8 @@ SCENARIO("No operation takes a name outside the grammar", "[workbench][names]") 
     }
     GivenArguments cut(find_operation("clip-opening"));
     for (const std::string& name : {kCode, kLibrary, std::string("a,b c"), std::string("\x1b")}) {
-        Records names;
-        names.add({{"kind", std::string("outlet")}, {"name", name}});
-        CHECK_THROWS_WITH(cut.set("names", names), Contains("field 'name'"));
+        const Arguments opening = {{"kind", std::string("outlet")}, {"name", name}};
+        CHECK_THROWS_WITH(cut.set("names", Records({opening})), Contains("field 'name'"));
         CHECK_THROWS_AS(cut.set("names", "outlet:" + name), UsageError);
     }
     CHECK_NOTHROW(cut.set("names", std::string("outlet:inlet_1")));

@@ -164,6 +164,10 @@ Dab any_dab(Random& random) {
             .falloff = between(0.0, 1.0)};
 }
 
+Records stroke_of(const Dab& dab) {
+    return listed({&dab, 1});
+}
+
 }  // namespace
 
 SCENARIO("smooth has the same bits live and in one run", "[workbench][live]") {
@@ -239,22 +243,20 @@ SCENARIO("A stroke has the same bits dab by dab and in one run", "[workbench][li
     const auto live = operation.start(scene, checked_arguments(operation, arguments), progress);
     CHECK_THROWS_WITH(live->outcome(progress), Contains("give dabs"));
     require_same(live->scene(), scene);
-    Records all;
+    std::vector<Dab> all;
     for (int i = 0; i < 12; ++i) {
-        Records dabs;
-        for (int k = 0; k < i % 3; ++k) dabs.append(listed(any_dab(random)));
-        Dab last = any_dab(random);
-        if (i % 4 == 3) last.anchor.point.x() += 50.0;
-        dabs.append(listed(last));
+        std::vector<Dab> dabs;
+        for (int k = 0; k < 1 + i % 3; ++k) dabs.push_back(any_dab(random));
         if (i % 4 == 3) {  // the last dab is off the surface: none is brushed
             const Outcome before = live->outcome(progress);
-            CHECK_THROWS_AS(live->add({{"dabs", dabs}}, progress), AlgorithmFailure);
+            dabs.back().anchor.point.x() += 50.0;
+            CHECK_THROWS_AS(live->add({{"dabs", listed(dabs)}}, progress), AlgorithmFailure);
             require_same(live->outcome(progress), before);
             continue;
         }
-        live->add({{"dabs", dabs}}, progress);
-        all.append(dabs);
-        arguments.set("dabs", all);
+        live->add({{"dabs", listed(dabs)}}, progress);
+        all.insert(all.end(), dabs.begin(), dabs.end());
+        arguments.set("dabs", listed(all));
         require_same(live->outcome(progress), batch_of(operation, scene, arguments, progress));
     }
     WHEN("a dab is cancelled") {
@@ -262,7 +264,7 @@ SCENARIO("A stroke has the same bits dab by dab and in one run", "[workbench][li
         std::stop_source stop;
         stop.request_stop();
         Progress stopped({}, stop.get_token());
-        CHECK_THROWS_AS(live->add({{"dabs", listed(any_dab(random))}}, stopped), Cancelled);
+        CHECK_THROWS_AS(live->add({{"dabs", stroke_of(any_dab(random))}}, stopped), Cancelled);
         THEN("the stroke stays as it was") {
             require_same(live->outcome(progress), before);
         }
@@ -274,7 +276,8 @@ SCENARIO("A stroke has the same bits dab by dab and in one run", "[workbench][li
             const auto other = operation.start(scene, checked_arguments(operation, dab), progress);
             const Outcome outcome = other->outcome(progress);
             require_same(outcome, batch_of(operation, scene, outcome.resolved, progress));
-            CHECK_THROWS_AS(other->add({{"dabs", listed(any_dab(random))}}, progress), UsageError);
+            CHECK_THROWS_AS(other->add({{"dabs", stroke_of(any_dab(random))}}, progress),
+                            UsageError);
             require_same(other->outcome(progress), outcome);
         }
     }

@@ -59,26 +59,11 @@ struct TextOf {
 }  // namespace
 
 Records::Records(std::vector<Arguments> list)
-    : list_(std::make_shared<std::vector<Arguments>>(std::move(list))) {}
+    : list_(std::make_shared<const std::vector<Arguments>>(std::move(list))) {}
 
 const std::vector<Arguments>& Records::list() const {
     static const std::vector<Arguments> none;
     return list_ ? *list_ : none;
-}
-
-std::vector<Arguments>& Records::own() {
-    if (list_.use_count() != 1) list_ = std::make_shared<std::vector<Arguments>>(list());
-    return *list_;
-}
-
-void Records::add(Arguments record) {
-    own().push_back(std::move(record));
-}
-
-void Records::append(const Records& more) {
-    const Records added = more;  // may share this one's list
-    std::vector<Arguments>& list = own();
-    list.insert(list.end(), added.list().begin(), added.list().end());
 }
 
 bool Records::operator==(const Records& other) const {

@@ -15,8 +15,8 @@ namespace vesselbench {
 
 class Arguments;
 
-/// A list of records, each of named values: the dabs of a stroke. Copies share it until one of them
-/// is added to, so that edits, logs and snapshots may hold long ones.
+/// A list of records, each of named values: the dabs of a stroke. An immutable value that copies
+/// share, so that edits, logs and snapshots may hold long ones.
 class Records {
 public:
     Records() = default;
@@ -24,15 +24,10 @@ public:
 
     [[nodiscard]] const std::vector<Arguments>& list() const;
 
-    void add(Arguments record);
-    void append(const Records& more);
-
     bool operator==(const Records& other) const;
 
 private:
-    std::vector<Arguments>& own();
-
-    std::shared_ptr<std::vector<Arguments>> list_;  ///< null: empty
+    std::shared_ptr<const std::vector<Arguments>> list_;  ///< null: empty
 };
 
 /// One argument's value. Its text form is the command line's: true|false, 12, 0.5, text, x,y,z,

@@ -95,24 +95,27 @@ public:
             brush(*longer, dabs, progress);
             stroke_ = std::move(longer);
         }
-        append_dabs(stroke_->resolved, read.resolved);
+        for (const auto& [name, value] : read.resolved.values()) stroke_->resolved.set(name, value);
         stroke_->warnings.insert(stroke_->warnings.end(), read.warnings.begin(),
                                  read.warnings.end());
         scene_.reset();
     }
 
     [[nodiscard]] const Scene& scene() const override {
-        if (stroke_->dabs == 0) return before_;
+        if (stroke_->dabs.empty()) return before_;
         if (!scene_) scene_ = scene_with(stroke_->brush.surface());
         return *scene_;
     }
 
-    [[nodiscard]] const Arguments& resolved() const override { return stroke_->resolved; }
+    [[nodiscard]] const Arguments& resolved() const override {
+        if (!stroke_->dabs.empty()) stroke_->resolved.set("dabs", listed(stroke_->dabs));
+        return stroke_->resolved;
+    }
 
     [[nodiscard]] Outcome outcome(Progress& progress) override {
-        if (stroke_->dabs == 0) throw_without_dabs(operation_);
+        if (stroke_->dabs.empty()) throw_without_dabs(operation_);
         Outcome outcome;
-        outcome.resolved = stroke_->resolved;
+        outcome.resolved = resolved();
         outcome.warnings = stroke_->warnings;
         if (stroke_->empty > 0)
             outcome.warnings.push_back(
@@ -123,7 +126,7 @@ public:
             warn_of_crossings(ended.keep_walls_apart(progress), "brush-crosses-walls",
                               {{.arguments = {{"strength", ""}}}}, outcome);
         outcome.scene = scene_with(ended.surface());
-        ordered_json report = {{"dabs", stroke_->dabs}};
+        ordered_json report = {{"dabs", stroke_->dabs.size()}};
         const Surface &before = surface_of(before_), &after = surface_of(outcome.scene);
         if (settings_.kind == BrushKind::Weight)
             report.update(painting(before, after, settings_.attribute));
@@ -137,9 +140,9 @@ private:
     /// A stroke with its arguments and warnings.
     struct Stroke {
         BrushStroke brush;
-        Arguments resolved;
+        Arguments resolved;  ///< whose dabs are those added last
         std::vector<Diagnostic> warnings = {};
-        std::size_t dabs = 0;
+        std::vector<Dab> dabs = {};
         std::size_t empty = 0;  ///< dabs that changed no vertex
     };
 
@@ -149,17 +152,17 @@ private:
             try {
                 if (stroke.brush.add(dabs[i]).empty()) ++stroke.empty;
             } catch (const AlgorithmFailure& failure) {
-                throw AlgorithmFailure(dab_name(operation_, stroke.dabs, dabs[i]) + ": " +
+                throw AlgorithmFailure(dab_name(operation_, stroke.dabs.size(), dabs[i]) + ": " +
                                        failure.what());
             }
-            ++stroke.dabs;
+            stroke.dabs.push_back(dabs[i]);
         }
     }
 
     /// `at` and what belongs to it make one dab; a stroke of several is given by `dabs` alone.
     void check_continued(const Arguments& more) const {
         const bool by_dabs = more.values().size() == 1 && more.has("dabs");
-        if (stroke_->dabs > 0 && (!by_dabs || stroke_->resolved.has("at")))
+        if (!stroke_->dabs.empty() && (!by_dabs || stroke_->resolved.has("at")))
             throw UsageError(operation_ +
                              ": at makes a stroke of one dab; a longer one is given by dabs alone");
     }

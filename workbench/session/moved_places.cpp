@@ -23,8 +23,8 @@ bool is_place(const Parameter& parameter) {
 }
 
 Records scaled(const Parameter& parameter, const Records& records, double factor) {
-    Records result;
-    for (Arguments record : records.list()) {
+    std::vector<Arguments> moved = records.list();
+    for (Arguments& record : moved)
         for (const Parameter& field : parameter.fields) {
             if (field.unit != "mm" || !record.has(field.name)) continue;
             if (field.type == ParameterType::Point)
@@ -32,9 +32,7 @@ Records scaled(const Parameter& parameter, const Records& records, double factor
             else
                 record.set(field.name, factor * record.real(field.name));
         }
-        result.add(std::move(record));
-    }
-    return result;
+    return Records(std::move(moved));
 }
 
 }  // namespace

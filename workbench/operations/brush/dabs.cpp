@@ -128,27 +128,20 @@ std::vector<Parameter> dab_fields(double weakest, const std::string& strength) {
 
 }  // namespace
 
-Records listed(const Dab& dab) {
-    Records record;
-    record.add({{"point", dab.anchor.point},
-                {"normal", dab.anchor.normal},
-                {"vessel_radius", dab.anchor.radius},
-                {"radius", dab.radius},
-                {"strength", dab.strength},
-                {"falloff", dab.falloff}});
-    return record;
+Records listed(std::span<const Dab> dabs) {
+    std::vector<Arguments> records;
+    for (const auto& [anchor, radius, strength, falloff] : dabs)
+        records.push_back({{"point", anchor.point},
+                           {"normal", anchor.normal},
+                           {"vessel_radius", anchor.radius},
+                           {"radius", radius},
+                           {"strength", strength},
+                           {"falloff", falloff}});
+    return Records(std::move(records));
 }
 
 bool is_dab_argument(const std::string& name) {
     return std::ranges::count(kNames, name) > 0;
-}
-
-void append_dabs(Arguments& stroke, const Arguments& more) {
-    Records all = stroke.has("dabs") ? stroke.records("dabs") : Records();
-    stroke.remove("dabs");  // so that what it has is appended to, not copied
-    all.append(more.records("dabs"));
-    for (const auto& [name, value] : more.values()) stroke.set(name, value);
-    stroke.set("dabs", std::move(all));
 }
 
 void throw_without_dabs(const std::string& operation) {
@@ -200,7 +193,7 @@ std::vector<Dab> resolved_dabs(const std::string& operation, const Surface& surf
         return dabs;
     }
     const Dab dab = single_dab(operation, surface, places, outcome);
-    arguments.set("dabs", listed(dab));
+    arguments.set("dabs", listed({&dab, 1}));
     arguments.set("strength", dab.strength);
     arguments.set("falloff", dab.falloff);
     return {dab};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -25,15 +26,11 @@ namespace vesselbench {
 [[nodiscard]] std::vector<Dab> resolved_dabs(const std::string& operation, const Surface& surface,
                                              const SurfaceDistance& places, Outcome& outcome);
 
-/// A dab as the only record of `dabs`.
-[[nodiscard]] Records listed(const Dab& dab);
+/// Dabs as the records of `dabs`.
+[[nodiscard]] Records listed(std::span<const Dab> dabs);
 
 /// True for the names of dab_parameters.
 [[nodiscard]] bool is_dab_argument(const std::string& name);
-
-/// Appends the resolved dabs of `more` to those of a stroke; if it had none, also copies `at` and
-/// its companions.
-void append_dabs(Arguments& stroke, const Arguments& more);
 
 /// \throw UsageError that says how dabs are given
 [[noreturn]] void throw_without_dabs(const std::string& operation);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace vesselbench {
 
@@ -77,13 +78,13 @@ std::vector<Parameter> closing_fields() {
 }
 
 Records planes_argument(std::span<const PlannedOpening> openings) {
-    Records records;
+    std::vector<Arguments> records;
     for (const auto& [place, way, patch] : openings)
-        records.add({{"tip", place.tip},
-                     {"point", place.plane.point},
-                     {"normal", place.plane.normal},
-                     {"way", name_of(way, kOpeningWays)}});
-    return records;
+        records.push_back({{"tip", place.tip},
+                           {"point", place.plane.point},
+                           {"normal", place.plane.normal},
+                           {"way", name_of(way, kOpeningWays)}});
+    return Records(std::move(records));
 }
 
 std::vector<PlannedOpening> openings_in(const Records& planes) {
@@ -99,10 +100,10 @@ std::vector<PlannedOpening> openings_in(const Records& planes) {
 }
 
 Records names_argument(std::span<const Patch> patches) {
-    Records records;
+    std::vector<Arguments> records;
     for (const Patch& patch : patches)
-        records.add({{"kind", to_string(patch.kind)}, {"name", patch.name}});
-    return records;
+        records.push_back({{"kind", to_string(patch.kind)}, {"name", patch.name}});
+    return Records(std::move(records));
 }
 
 std::vector<Patch> patches_in(const Records& names) {
@@ -113,10 +114,10 @@ std::vector<Patch> patches_in(const Records& names) {
 }
 
 Records closings_argument(std::span<const PlannedClosing> closings) {
-    Records records;
+    std::vector<Arguments> records;
     for (const auto& [place, way] : closings)
-        records.add({{"place", place}, {"way", name_of(way, kClosingWays)}});
-    return records;
+        records.push_back({{"place", place}, {"way", name_of(way, kClosingWays)}});
+    return Records(std::move(records));
 }
 
 std::vector<PlannedClosing> closings_in(const Records& closings) {

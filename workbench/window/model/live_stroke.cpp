@@ -62,7 +62,7 @@ void LiveStroke::send(const StrokePlace& place) {
     if (!dab) return;
     sent_ = true;
     dabs_.push_back(runner_.submit(
-        [live = started_->live, added = listed(*dab)](Session&, const Progress& progress) {
+        [live = started_->live, added = listed({&*dab, 1})](Session&, const Progress& progress) {
             SceneMove move{.before = live->scene()};
             live->add({{"dabs", added}}, progress);
             move.after = live->scene();
