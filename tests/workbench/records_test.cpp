@@ -108,10 +108,9 @@ SCENARIO("Records are read from JSON and from lists of their values", "[workbenc
         values_of({mark({1, 2, 3}, 0.5, "hard", "a"), mark({4, 5, 6}, 7, "soft", "b")});
     CHECK(checked_value(marks(), "1,2,3,0.5,hard,a,4,5,6,7,soft,b") == both);
     CHECK(checked_value(marks(), "1,2,3,0.5,1:a,4,5,6,7,0:b") == both);
-    CHECK(
-        checked_value(marks(), R"([{"label": "a", "way": "hard", "reach": 0.5, "place": [1, 2, 3]},
-                                     {"label": "b", "way": "soft", "reach": 7, "place": [4, 5, 6]}])") ==
-        both);
+    const std::string json = R"([{"label": "a", "way": "hard", "reach": 0.5, "place": [1, 2, 3]},
+                                 {"label": "b", "way": "soft", "reach": 7, "place": [4, 5, 6]}])";
+    CHECK(checked_value(marks(), json) == both);
     THEN("a field that is not given takes its default") {
         const Value one = values_of({mark({1, 2, 3}, 1.5, "soft", "a")});
         CHECK(checked_value(marks(), R"([{"place": [1, 2, 3], "way": "soft", "label": "a"}])") ==
