@@ -127,7 +127,7 @@ class Case:
             self.remove_stub(tip)
         self.apply("clip-opening", *cuts)
         made = self.last_arguments()
-        cuts = ["planes=" + ",".join(map(repr, made["planes"])), "names=" + made["names"]]
+        cuts = [f"{name}={json.dumps(made[name])}" for name in ("planes", "names")]
         self.apply("extrude-opening", "length=6")
         if smoothing:
             self.apply("smooth", *smoothing)

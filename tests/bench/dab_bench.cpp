@@ -17,6 +17,7 @@
 #include "geometry/kernel/measure.h"
 #include "gpu/context.h"
 #include "gpu/render/drawn_surface.h"
+#include "workbench/operations/brush/dabs.h"
 #include "workbench/operations/table.h"
 #include "workbench/session/surface_change.h"
 #include "workbench/window/case/live_stroke.h"
@@ -74,8 +75,12 @@ Surface tube(double triangles) {
     return make_surface(std::move(points), std::move(list));
 }
 
-std::vector<double> dab_at(double z, double radius) {
-    return {0, -4, z, 0, -1, 0, 4, radius, 0.5, 1};
+Records dab_at(double z, double radius) {
+    const Dab dab{.anchor = {.point = {0, -4, z}, .normal = {0, -1, 0}, .radius = 4},
+                  .radius = radius,
+                  .strength = 0.5,
+                  .falloff = 1.0};
+    return listed({&dab, 1});
 }
 
 void print(const Part& part) {

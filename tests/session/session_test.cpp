@@ -184,26 +184,32 @@ SCENARIO("Places follow a model into another unit, sizes keep their numbers", "[
         .name = "cut",
         .parameters = {{.name = "at", .type = Point, .unit = "mm", .meaning = Meaning::Tip},
                        {.name = "open", .type = List, .unit = "mm", .meaning = Meaning::Tip},
-                       {.name = "planes", .type = List, .unit = "mm", .meaning = Meaning::Planes},
-                       {.name = "closings", .type = List, .unit = "mm", .meaning = Meaning::Planes},
-                       {.name = "dabs", .type = List, .unit = "mm", .meaning = Meaning::Dabs},
+                       {.name = "planes",
+                        .type = ParameterType::Records,
+                        .fields = {{.name = "point", .type = Point, .unit = "mm"},
+                                   {.name = "normal", .type = Point, .unit = "-"},
+                                   {.name = "reach", .unit = "mm"},
+                                   {.name = "way", .type = Choice}}},
                        {.name = "distance", .unit = "mm"},
                        {.name = "share", .unit = "-"},
                        {.name = "units", .type = Text, .meaning = Meaning::Unit}}};
     using Numbers = std::vector<double>;
-    const Arguments given = {{"at", Vec3(1, 2, 3)},
-                             {"open", Numbers{1, 2, 3, 4, 5, 6}},
-                             {"planes", Numbers{1, 2, 3, 4, 5, 6, 0, 0.6, 0.8, 1}},
-                             {"closings", Numbers{1, 2, 3, 2}},
-                             {"dabs", Numbers{1, 2, 3, 0, 0, 1, 4, 5, 0.5, 1}},
-                             {"distance", 7.0},
-                             {"share", 0.3}};
+    const auto plane = [](const Vec3& point, double reach) {
+        return Arguments{{"point", point},
+                         {"normal", Vec3(0, 0.6, 0.8)},
+                         {"reach", reach},
+                         {"way", std::string("cut")}};
+    };
+    const vesselbench::Records planes({plane({1, 2, 3}, 4), plane({4, 5, 6}, 7)});
+    const Arguments given = {
+        {"at", Vec3(1, 2, 3)}, {"open", Numbers{1, 2, 3, 4, 5, 6}},
+        {"planes", planes},    {"dabs", Numbers{1, 2, 3, 0, 0, 1, 4, 5, 0.5, 1}},
+        {"distance", 7.0},     {"share", 0.3}};
     const Arguments scaled = with_scaled_places(operation, given, 10.0);
     CHECK(scaled.point("at") == Vec3(10, 20, 30));
     CHECK(scaled.list("open") == Numbers{10, 20, 30, 40, 50, 60});
-    CHECK(scaled.list("planes") == Numbers{10, 20, 30, 40, 50, 60, 0, 0.6, 0.8, 1});
-    CHECK(scaled.list("closings") == Numbers{10, 20, 30, 2});
-    CHECK(scaled.list("dabs") == Numbers{10, 20, 30, 0, 0, 1, 40, 50, 0.5, 1});
+    CHECK(scaled.records("planes") ==
+          vesselbench::Records({plane({10, 20, 30}, 40), plane({40, 50, 60}, 70)}));
     CHECK(scaled.real("distance") == 7.0);
     CHECK(given_sizes(operation, given) == std::vector<std::string>{"distance"});
     const Arguments in_mm = {{"units", std::string("mm")}}, in_m = {{"units", std::string("m")}};

@@ -96,18 +96,13 @@ private:
     }
 
     void add(const Parameter& parameter) {
-        if (is_decision(parameter) && !dice_.chance(kOdd)) return;
+        // Replays give them, users hardly.
+        if (parameter.use == Use::Decision && !dice_.chance(kOdd)) return;
         if (parameter.name == "device") return;  // results of a GPU are equal to a tolerance only
         if (parameter.only_with && left_out_.contains(parameter.only_with->parameter)) return;
         if (parameter.only_with && !drawn_.has(parameter.only_with->parameter))
             drawn_.set(parameter.only_with->parameter, met(*parameter.only_with));
         drawn_.set(parameter.name, value(parameter));
-    }
-
-    /// What an earlier run decided: replays give it, users hardly.
-    static bool is_decision(const Parameter& parameter) {
-        return parameter.help.find("decisions of an earlier run") != std::string::npos ||
-               parameter.help.starts_with("with planes");
     }
 
     /// A value with which the condition most likely holds.
@@ -132,9 +127,21 @@ private:
                 return point(parameter);
             case ParameterType::List:
                 return list(parameter);
+            case ParameterType::Records:
+                return records(parameter);
             default:
                 return files_.one_for(operation_, parameter.name, dice_);
         }
+    }
+
+    Value records(const Parameter& parameter) {
+        std::vector<Arguments> drawn;
+        for (int left = dice_.whole(1, 3); left > 0; --left) {
+            Arguments record;
+            for (const Parameter& field : parameter.fields) record.set(field.name, value(field));
+            drawn.push_back(std::move(record));
+        }
+        return Records(std::move(drawn));
     }
 
     std::int64_t integer(const Parameter& parameter) {
@@ -189,7 +196,6 @@ private:
         std::string words = one_of(names(), dice_);
         const bool several = meaning == Meaning::Names || meaning == Meaning::Openings;
         if (several && dice_.chance(0.4)) words += "," + one_of(names(), dice_);
-        if (meaning == Meaning::Patches) words = "outlet:" + words;
         return words;
     }
 
@@ -199,8 +205,6 @@ private:
                 return dice_.chance(0.8) ? std::vector<double>{1} : std::vector<double>{1, 2};
             case Meaning::Box:
                 return box();
-            case Meaning::Dabs:
-                return dabs();
             default:
                 return numbers(10 * dice_.whole(0, 2) + 3 * dice_.whole(0, 2));
         }
@@ -211,18 +215,6 @@ private:
         const Vec3 low = a.cwiseMin(b) - Vec3::Constant(dice_.between(0, 3));
         const Vec3 high = a.cwiseMax(b) + Vec3::Constant(dice_.between(0, 3));
         return {low.x(), low.y(), low.z(), high.x(), high.y(), high.z()};
-    }
-
-    std::vector<double> dabs() {
-        std::vector<double> all;
-        for (int left = dice_.whole(1, 3); left > 0; --left) {
-            const Vec3 p = on_surface(), n = dice_.direction();
-            for (const double number :
-                 {p.x(), p.y(), p.z(), n.x(), n.y(), n.z(), dice_.between(0.5, 4),
-                  dice_.between(0.3, 4), dice_.unit(), dice_.unit()})
-                all.push_back(number);
-        }
-        return all;
     }
 
     std::vector<double> numbers(int count) {

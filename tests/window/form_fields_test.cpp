@@ -83,6 +83,33 @@ SCENARIO("Fields that are seldom needed are folded away", "[window][form]") {
     }
 }
 
+SCENARIO("Decisions are no fields, and can be dropped", "[window][form]") {
+    const auto shell = test_shell();
+    if (!shell) return;
+    open_and_wait(*shell, tube_file());
+    REQUIRE(shell->click_item("rail.openings"));
+    REQUIRE(shell->click_item("choose.extrude-opening"));
+    REQUIRE(shell->settle(60s));
+    Workplace& place = shell->app().place();
+    CHECK_FALSE(shell->has("field.lengths"));
+    CHECK_FALSE(shell->has("field.decide"));
+    place.set_field("lengths", "5,6");
+    REQUIRE(shell->settle(60s));
+    CHECK_FALSE(shell->has("field.lengths"));
+    REQUIRE(shell->click_item("field.decide"));
+    CHECK(place.form()->field("lengths").text.empty());
+    REQUIRE(shell->settle(60s));
+    CHECK_FALSE(shell->has("field.decide"));
+    WHEN("a brush's form holds a stroke") {
+        place.leave_form();
+        place.choose("brush-smooth");
+        place.set_field("dabs", "2,0,15,1,0,0,2,1,0.5,1");
+        REQUIRE(shell->settle(60s));
+        CHECK(shell->has("field.passes"));
+        CHECK_FALSE(shell->has("field.dabs"));
+    }
+}
+
 SCENARIO("Labels are switched one by one, and the last one stays", "[window][form]") {
     const std::vector<LabelRow> all = {{2, 1.0, true}, {5, 1.0, true}};
     CHECK(switched_label(all, 5) == "2");

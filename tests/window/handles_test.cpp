@@ -6,6 +6,7 @@
 
 #include "geometry/kernel/measure.h"
 #include "tests/support/shapes.h"
+#include "workbench/operations/shared/opening_arguments.h"
 #include "workbench/operations/table.h"
 #include "workbench/window/drawing/handle.h"
 #include "workbench/window/features/handles/crop_handles.h"
@@ -44,13 +45,18 @@ struct TubeCut {
     }
 };
 
-/// The text of `names`.
-std::string names_in(const std::vector<FieldText>& texts) {
-    return std::ranges::find(texts, "names", &FieldText::parameter)->text;
+/// The only opening's role and name.
+Patch patch_in(const OperationForm& form) {
+    return patches_in(records_of(form, "names")).at(0);
 }
 
-double tilt_of(const std::vector<double>& planes) {
-    return std::acos(planes.at(8)) * 180 / std::numbers::pi;
+/// The only opening's plane.
+Plane plane_in(const OperationForm& form) {
+    return openings_in(records_of(form, "planes")).at(0).place.plane;
+}
+
+double tilt_of(const OperationForm& form) {
+    return std::acos(plane_in(form).normal.z()) * 180 / std::numbers::pi;
 }
 
 }  // namespace
@@ -251,16 +257,18 @@ SCENARIO("A cut is tilted by its normal", "[window][handles]") {
     }
     WHEN("it is tilted by 30 degrees") {
         fill(tube.form, cut_texts(tube.form, cut, 1, at + Vec3(4, 0, 4 * std::sqrt(3.0))));
-        const auto planes = tube.form.arguments().list("planes");
-        REQUIRE(planes.size() == 10);
-        CHECK(tilt_of(planes) == Approx(30).margin(0.01));
-        CHECK(tube.form.field("names").text == "outlet:outlet_1");
+        REQUIRE(tube.form.arguments().records("planes").list().size() == 1);
+        CHECK(tilt_of(tube.form) == Approx(30).margin(0.01));
+        CHECK(patch_in(tube.form) == Patch{"outlet_1", PatchKind::Outlet});
         CHECK(tube.form.valid());
         THEN("a typed role and name are those of the opening, as without the tilt") {
-            tube.form.set("kind", "inlet");
-            CHECK(names_in(cut_texts(tube.form, cut, 1, at + Vec3(4, 0, 4))) == "inlet:outlet_1");
-            tube.form.set("name", "neck");
-            CHECK(names_in(cut_texts(tube.form, cut, 1, at + Vec3(4, 0, 4))) == "inlet:neck");
+            OperationForm typed = tube.form;
+            typed.set("kind", "inlet");
+            fill(typed, cut_texts(typed, cut, 1, at + Vec3(4, 0, 4)));
+            CHECK(patch_in(typed) == Patch{"outlet_1", PatchKind::Inlet});
+            typed.set("name", "neck");
+            fill(typed, cut_texts(typed, cut, 1, at + Vec3(4, 0, 4)));
+            CHECK(patch_in(typed) == Patch{"neck", PatchKind::Inlet});
         }
         const Cut tilted = tube.find(cut.branch);
         CHECK(tilted.tilt_deg == Approx(30).margin(1));
@@ -269,9 +277,8 @@ SCENARIO("A cut is tilted by its normal", "[window][handles]") {
         CHECK_THAT(cut_shape(tube.form, tilted).notes.front().text, Contains("tilted 30"));
         THEN("it keeps its tilt when it slides") {
             fill(tube.form, cut_texts(tube.form, tilted, 0, {0, 0, 15}));
-            const auto slid = tube.form.arguments().list("planes");
-            CHECK(slid[5] == Approx(15).margin(0.1));
-            CHECK(tilt_of(slid) == Approx(30).margin(1));
+            CHECK(plane_in(tube.form).point.z() == Approx(15).margin(0.1));
+            CHECK(tilt_of(tube.form) == Approx(30).margin(1));
         }
         THEN("turned back it is perpendicular again") {
             fill(tube.form, cut_texts(tube.form, tilted, 1, at + Vec3(0, 0, 8)));
@@ -281,7 +288,7 @@ SCENARIO("A cut is tilted by its normal", "[window][handles]") {
     }
     WHEN("it is tilted to the side") {
         fill(tube.form, cut_texts(tube.form, cut, 1, at + Vec3(8, 0, 0)));
-        CHECK(tilt_of(tube.form.arguments().list("planes")) == Approx(60).margin(0.01));
+        CHECK(tilt_of(tube.form) == Approx(60).margin(0.01));
     }
 }
 

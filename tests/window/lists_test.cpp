@@ -89,8 +89,10 @@ SCENARIO("A step that no operation belongs to is not listed, unless it has edits
 }
 
 SCENARIO("Long lists of arguments are counted", "[window][rail]") {
-    const Arguments stroke = {{"dabs", Value(std::vector<double>(800, 1.5))}};
-    CHECK(argument_summary(find_operation("brush-inflate"), stroke) == "dabs=(800 numbers)");
+    const Arguments stroke = {{"dabs", Records(std::vector<Arguments>(80))}};
+    CHECK(argument_summary(find_operation("brush-inflate"), stroke) == "dabs=(80 records)");
+    const Arguments ends = {{"open", std::vector<double>(30, 1.5)}};
+    CHECK(argument_summary(find_operation("clip-opening"), ends) == "open=(30 numbers)");
     const Arguments box = {{"box", Value(std::vector<double>{1, 2, 3, 4, 5, 6})}};
     CHECK(argument_summary(find_operation("crop"), box) == "box=1,2,3,4,5,6");
 }

@@ -23,7 +23,7 @@ using namespace vesselbench::test;
 
 namespace {
 
-/// Two dabs on the wall of a tube of radius 2 mm along z.
+/// Two dabs on the wall of a tube of radius 2 mm along z, as a flat list.
 std::vector<double> stroke(double strength, double falloff = 1.0) {
     return {2, 0, 6, 1, 0, 0, 2, 1.5, strength, falloff,
             2, 0, 7, 1, 0, 0, 2, 1.5, strength, falloff};
@@ -72,15 +72,18 @@ SCENARIO("A dab at a point is stored as the resolved dab", "[workbench][brush]")
     const Arguments given = {{"at", Vec3(2.4, 0.1, 6.0)}, {"radius", 1.5}, {"falloff", 0.5}};
     const Outcome outcome = run(name, tube, given);
     CHECK(outcome.warnings.empty());
-    const auto& dab = outcome.resolved.list("dabs");
-    REQUIRE(dab.size() == 10);
-    CHECK((Vec3(dab[0], dab[1], dab[2]) - Vec3(2.0, 0.1, 6.0)).norm() < 0.03);
-    CHECK(Vec3(dab[3], dab[4], dab[5]).x() > 0.99);
-    CHECK(dab[6] == Approx(2.0).epsilon(0.01));
-    CHECK(std::vector(dab.begin() + 7, dab.end()) == std::vector<double>{1.5, 0.5, 0.5});
+    const Records& dabs = outcome.resolved.records("dabs");
+    REQUIRE(dabs.list().size() == 1);
+    const Arguments& dab = dabs.list()[0];
+    CHECK((dab.point("point") - Vec3(2.0, 0.1, 6.0)).norm() < 0.03);
+    CHECK(dab.point("normal").x() > 0.99);
+    CHECK(dab.real("vessel_radius") == Approx(2.0).epsilon(0.01));
+    CHECK(dab.real("radius") == 1.5);
+    CHECK(dab.real("strength") == 0.5);
+    CHECK(dab.real("falloff") == 0.5);
     THEN("its replay and the dab alone are the same bits") {
         const Outcome again = run(name, tube, outcome.resolved);
-        const Outcome alone = run(name, tube, {{"dabs", dab}});
+        const Outcome alone = run(name, tube, {{"dabs", dabs}});
         CHECK(again.resolved == outcome.resolved);
         for (const Outcome* other : {&again, &alone}) {
             CHECK(other->scene.surface->points() == outcome.scene.surface->points());
@@ -191,7 +194,9 @@ SCENARIO("A brush beside the surface and nonsense dabs are refused", "[workbench
     CHECK_THROWS_AS(run(name, tube, with(8, 1.5)), UsageError);
     CHECK_THROWS_AS(run(name, tube, with(8, std::numeric_limits<double>::quiet_NaN())), UsageError);
     CHECK_THROWS_WITH(run(name, tube, with(19, 1.1)),
-                      Catch::Contains("dab 2") && Catch::Contains("falloff = 1.1 must be 0 to 1"));
+                      Catch::Contains(name) &&
+                          Catch::Contains("'dabs', record 2, field 'falloff' = '1.1'") &&
+                          Catch::Contains("0 to 1"));
     CHECK_THROWS_WITH(run(name, tube, {}), Catch::Contains("give dabs, or at=x,y,z"));
     CHECK_THROWS_AS(run(name, tube, {{"at", Vec3(2, 0, 6)}}), UsageError);
     CHECK_THROWS_AS(run(name, tube, {{"dabs", stroke(0.5)}, {"radius", 1.0}}), UsageError);

@@ -179,9 +179,31 @@ SCENARIO("The operation table is printed for people and for programs",
         const Json one = Json::parse(run({"operations", name, "--json"}).out);
         CHECK(one == operation);
         const std::string explained = run({"operations", name}).out;
-        for (const Json& parameter : operation["parameters"])
-            CHECK_THAT(explained, Contains(parameter["name"].get<std::string>()));
+        for (const char* list : {"parameters", "decisions"})
+            for (const Json& parameter : operation[list])
+                CHECK_THAT(explained, Contains(parameter["name"].get<std::string>()));
     }
+}
+
+SCENARIO("Decisions are no parameters, on pages and for programs", "[workbench][command-line]") {
+    const Json cut = Json::parse(run({"operations", "clip-opening", "--json"}).out);
+    const auto has = [&](const char* list, const std::string& name) {
+        return std::ranges::any_of(cut[list],
+                                   [&](const Json& each) { return each["name"] == name; });
+    };
+    for (const char* name : {"planes", "names", "closings"}) {
+        CHECK(has("decisions", name));
+        CHECK_FALSE(has("parameters", name));
+    }
+    CHECK(has("parameters", "tip"));
+    CHECK(cut["decisions"][0]["type"] == "records");
+    CHECK(cut["decisions"][0]["fields"][0]["name"] == "tip");
+    CHECK(cut["decisions"][0]["fields"][0]["unit"] == "mm");
+    const std::string page = run({"operations", "--markdown"}).out;
+    const auto start = page.find("### clip-opening"), end = page.find("### extrude-opening");
+    const std::string section = page.substr(start, end - start);
+    CHECK_THAT(section, Contains("| decision |") && Contains("| planes.normal | x,y,z |"));
+    CHECK(section.find("| planes |") > section.find("| decision |"));
 }
 
 SCENARIO("docs/operations.md matches the program", "[workbench][command-line]") {

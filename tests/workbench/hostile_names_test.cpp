@@ -168,7 +168,6 @@ SCENARIO("A case's name cannot put control characters into its reports", "[workb
 SCENARIO("No operation takes a name outside the grammar", "[workbench][names]") {
     for (const auto& [operation, parameter] :
          std::vector<std::pair<std::string, std::string>>{{"clip-opening", "name"},
-                                                          {"clip-opening", "names"},
                                                           {"extrude-opening", "opening"},
                                                           {"load-neighbour", "name"},
                                                           {"brush-weight", "attribute"},
@@ -180,6 +179,13 @@ SCENARIO("No operation takes a name outside the grammar", "[workbench][names]") 
             CHECK_THROWS_AS(given.set(parameter, name), UsageError);
         CHECK_NOTHROW(given.set(parameter, std::string("inlet_1")));
     }
+    GivenArguments cut(find_operation("clip-opening"));
+    for (const std::string& name : {kCode, kLibrary, std::string("a,b c"), std::string("\x1b")}) {
+        const Arguments opening = {{"kind", std::string("outlet")}, {"name", name}};
+        CHECK_THROWS_WITH(cut.set("names", Records({opening})), Contains("field 'name'"));
+        CHECK_THROWS_AS(cut.set("names", "outlet:" + name), UsageError);
+    }
+    CHECK_NOTHROW(cut.set("names", std::string("outlet:inlet_1")));
     const Json recipe = {
         {{"operation", "clip-opening"}, {"arguments", {{"tip", {0, 0, 0}}, {"name", kCode}}}}};
     CHECK_THROWS_WITH(recipe_from_json(recipe, {}),

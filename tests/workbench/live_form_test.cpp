@@ -9,6 +9,7 @@
 #include "tests/support/image_shapes.h"
 #include "tests/support/shapes.h"
 #include "tests/workbench/test_operations.h"
+#include "workbench/operations/brush/dabs.h"
 #include "workbench/operations/table.h"
 
 using namespace vesselbench;
@@ -151,21 +152,20 @@ Value whole(std::int64_t value) {
 }
 
 /// A dab somewhere on the wall of a tube of radius 2 mm along z.
-std::vector<double> any_dab(Random& random) {
+Dab any_dab(Random& random) {
     const auto between = [&](double a, double b) {
         return std::uniform_real_distribution<double>(a, b)(random);
     };
     const double angle = between(0.0, 6.28), z = between(2.0, 10.0);
-    return {2 * std::cos(angle),
-            2 * std::sin(angle),
-            z,
-            std::cos(angle),
-            std::sin(angle),
-            0,
-            2,
-            between(0.5, 2.0),
-            between(0.0, 1.0),
-            between(0.0, 1.0)};
+    const Vec3 normal(std::cos(angle), std::sin(angle), 0);
+    return {.anchor = {.point = 2 * normal + Vec3(0, 0, z), .normal = normal, .radius = 2},
+            .radius = between(0.5, 2.0),
+            .strength = between(0.0, 1.0),
+            .falloff = between(0.0, 1.0)};
+}
+
+Records stroke_of(const Dab& dab) {
+    return listed({&dab, 1});
 }
 
 }  // namespace
@@ -243,23 +243,20 @@ SCENARIO("A stroke has the same bits dab by dab and in one run", "[workbench][li
     const auto live = operation.start(scene, checked_arguments(operation, arguments), progress);
     CHECK_THROWS_WITH(live->outcome(progress), Contains("give dabs"));
     require_same(live->scene(), scene);
-    std::vector<double> all;
+    std::vector<Dab> all;
     for (int i = 0; i < 12; ++i) {
-        std::vector<double> dabs;
-        for (int k = 0; k < 1 + i % 3; ++k) {
-            const std::vector<double> dab = any_dab(random);
-            dabs.insert(dabs.end(), dab.begin(), dab.end());
-        }
+        std::vector<Dab> dabs;
+        for (int k = 0; k < 1 + i % 3; ++k) dabs.push_back(any_dab(random));
         if (i % 4 == 3) {  // the last dab is off the surface: none is brushed
             const Outcome before = live->outcome(progress);
-            dabs[dabs.size() - 10] += 50.0;
-            CHECK_THROWS_AS(live->add({{"dabs", dabs}}, progress), AlgorithmFailure);
+            dabs.back().anchor.point.x() += 50.0;
+            CHECK_THROWS_AS(live->add({{"dabs", listed(dabs)}}, progress), AlgorithmFailure);
             require_same(live->outcome(progress), before);
             continue;
         }
-        live->add({{"dabs", dabs}}, progress);
+        live->add({{"dabs", listed(dabs)}}, progress);
         all.insert(all.end(), dabs.begin(), dabs.end());
-        arguments.set("dabs", all);
+        arguments.set("dabs", listed(all));
         require_same(live->outcome(progress), batch_of(operation, scene, arguments, progress));
     }
     WHEN("a dab is cancelled") {
@@ -267,7 +264,7 @@ SCENARIO("A stroke has the same bits dab by dab and in one run", "[workbench][li
         std::stop_source stop;
         stop.request_stop();
         Progress stopped({}, stop.get_token());
-        CHECK_THROWS_AS(live->add({{"dabs", any_dab(random)}}, stopped), Cancelled);
+        CHECK_THROWS_AS(live->add({{"dabs", stroke_of(any_dab(random))}}, stopped), Cancelled);
         THEN("the stroke stays as it was") {
             require_same(live->outcome(progress), before);
         }
@@ -279,7 +276,8 @@ SCENARIO("A stroke has the same bits dab by dab and in one run", "[workbench][li
             const auto other = operation.start(scene, checked_arguments(operation, dab), progress);
             const Outcome outcome = other->outcome(progress);
             require_same(outcome, batch_of(operation, scene, outcome.resolved, progress));
-            CHECK_THROWS_AS(other->add({{"dabs", any_dab(random)}}, progress), UsageError);
+            CHECK_THROWS_AS(other->add({{"dabs", stroke_of(any_dab(random))}}, progress),
+                            UsageError);
             require_same(other->outcome(progress), outcome);
         }
     }

@@ -20,6 +20,7 @@
 #include "tests/workbench/test_operations.h"
 #include "workbench/case/operation.h"
 #include "workbench/operations/shared/opening_arguments.h"
+#include "workbench/operations/table.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;
@@ -388,7 +389,7 @@ SCENARIO("The decisions of clip-opening are read back from its arguments", "[ope
     const std::vector<PlannedOpening> openings = {
         {.place = {.tip = {1, 2, 3}, .plane = {{4, 5, 6}, {0, 0, 1}}}, .way = OpeningWay::KeepCap},
         {.place = {.tip = {7, 8, 9}, .plane = {{10, 11, 12}, {0, -1, 0}}}}};
-    const std::vector<double> planes = planes_argument(openings);
+    const Records planes = planes_argument(openings);
     const auto read = openings_in(planes);
     REQUIRE(read.size() == 2);
     CHECK(read[0].way == OpeningWay::KeepCap);
@@ -396,17 +397,24 @@ SCENARIO("The decisions of clip-opening are read back from its arguments", "[ope
     CHECK(read[1].place.tip == Vec3(7, 8, 9));
     CHECK(read[1].place.plane.point == Vec3(10, 11, 12));
     CHECK(planes_argument(read) == planes);
-    CHECK(openings_in({1, 2, 3}).empty());
-    CHECK(openings_in({0, 0, 0, 0, 0, 0, 0, 0, 2, 0}).empty());
-    const std::vector<Patch> patches = {{"inlet", PatchKind::Inlet}, {"a:b", PatchKind::Outlet}};
-    CHECK(names_argument(patches) == "inlet:inlet,outlet:a:b");
-    CHECK(patches_in("inlet:inlet,outlet:a:b") == patches);
-    CHECK(patches_in("inlet:inlet,outlet").size() == 1);
-    const std::vector<Patch> odd = {{"a,b", PatchKind::Outlet}, {"5%2C,", PatchKind::Inlet}};
-    CHECK(patches_in(names_argument(odd)) == odd);
+    const PlannedOpening long_normal{.place = {.plane = {{0, 0, 0}, {0, 0, 2}}}};
+    CHECK(openings_in(planes_argument({&long_normal, 1})).empty());
+    const std::vector<Patch> patches = {{"inlet", PatchKind::Inlet}, {"a.b", PatchKind::Cut}};
+    CHECK(patches_in(names_argument(patches)) == patches);
     const std::vector<PlannedClosing> closings = {{{1, 2, 3}, ClosingWay::WallCap},
                                                   {{4, 5, 6}, ClosingWay::RemoveStub}};
-    CHECK(closings_argument(closings_in(closings_argument(closings))) ==
-          closings_argument(closings));
-    CHECK(closings_in({1, 2, 3, 7}).empty());
+    const Records ends = closings_argument(closings);
+    CHECK(closings_argument(closings_in(ends)) == ends);
+    THEN("the flat lists of earlier versions give the same") {
+        const auto flat = [](const char* name, const Value& value) {
+            return checked_value(find_parameter(find_operation("clip-opening"), name), value);
+        };
+        CHECK(flat("planes", std::vector<double>{1, 2, 3, 4,  5,  6,  0, 0,  1, 1,
+                                                 7, 8, 9, 10, 11, 12, 0, -1, 0, 0}) ==
+              Value(planes));
+        CHECK(flat("names", "inlet:inlet,cut:a.b") == Value(names_argument(patches)));
+        CHECK(flat("closings", std::vector<double>{1, 2, 3, 1, 4, 5, 6, 2}) == Value(ends));
+        CHECK_THROWS_AS(flat("closings", std::vector<double>{1, 2, 3, 7}), UsageError);
+        CHECK_THROWS_AS(flat("names", "inlet:inlet,outlet"), UsageError);
+    }
 }

@@ -185,6 +185,15 @@ SCENARIO("Every operation of the table is fully described", "[workbench][operati
                    p.choices.empty()));
             CHECK_FALSE((chosen && p.choices.empty()));
             if (p.default_value) CHECK_NOTHROW(checked_value(p, to_text(*p.default_value)));
+            // What is decided has no default; records have fields, each given or with a default.
+            CHECK_FALSE((p.use == Use::Decision && (p.required || p.default_value)));
+            CHECK((p.type == ParameterType::Records) == !p.fields.empty());
+            for (const Parameter& field : p.fields) {
+                INFO(field.name);
+                CHECK(field.required != field.default_value.has_value());
+                CHECK_FALSE(field.help.empty());
+                CHECK(field.type != ParameterType::Records);
+            }
         }
     }
 }

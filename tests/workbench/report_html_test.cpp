@@ -31,7 +31,8 @@ SCENARIO("The report's page matches its document", "[workbench][report]") {
         "program_version": "1.2.3", "purpose": "cfd", "units": "mm",
         "input": {"name": "<vessel> & co"},
         "warnings": ["the inlet sits in a bend"],
-        "steps": [{"step": "smoothing", "operation": "smooth", "resolved": {"lambda": 0.5},
+        "steps": [{"step": "smoothing", "operation": "smooth", "resolved": {"lambda": 0.5,
+                   "planes": [{"tip": [1, 2, 3]}, {"tip": [4, 5, 6]}]},
                    "duration_s": 0.25, "change": {"volume_before_mm3": 200.0,
                    "volume_after_mm3": 190.0, "triangles_after": 1234}},
                   {"step": "source", "operation": "repair", "resolved": {},
@@ -68,6 +69,7 @@ SCENARIO("The report's page matches its document", "[workbench][report]") {
                              "flow [cm\u00B3/s]",
                              "least [mm] 0.5, noise 0<",
                              "10 numbers",
+                             "planes=2 records",
                              "<h2>Vessel ends</h2>",
                              "<td>1,2,31.5</td><td class=n>3.75</td><td class=n>closed</td>",
                              "<td>4,5,6</td><td class=n>4.5</td><td class=n>opened</td>"

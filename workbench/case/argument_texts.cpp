@@ -9,10 +9,13 @@ namespace vesselbench {
 
 namespace {
 
-/// Longer lists, such as the dabs of a stroke, are counted: a summary is read at a glance.
+/// Longer lists, and records such as the dabs of a stroke, are counted: a summary is read at a
+/// glance.
 constexpr std::size_t kMostListed = 8;
 
 std::string short_text(const Value& value) {
+    if (const auto* records = std::get_if<Records>(&value))
+        return "(" + counted(records->list().size(), "record") + ")";
     const auto* list = std::get_if<std::vector<double>>(&value);
     if (list == nullptr || list->size() <= kMostListed) return to_text(value);
     return "(" + counted(list->size(), "number") + ")";

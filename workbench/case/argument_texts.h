@@ -13,7 +13,7 @@ namespace vesselbench {
                                                   std::span<const std::string> texts);
 
 /// "parameter=value parameter=value" for people, in the order of the table; defaults are left out,
-/// and long lists are counted: "dabs=(800 numbers)".
+/// and records and long lists are counted: "dabs=(80 records)".
 [[nodiscard]] std::string argument_summary(const Operation& operation, const Arguments& arguments);
 
 /// A length or a coordinate as a click fills it in, and as texts propose it: in steps of 0.01 mm,

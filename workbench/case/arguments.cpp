@@ -2,7 +2,11 @@
 
 #include <charconv>
 
+#include <nlohmann/json.hpp>
+
 #include "geometry/kernel/errors.h"
+#include "workbench/case/arguments_json.h"
+#include "workbench/case/json_text.h"
 
 namespace vesselbench {
 
@@ -46,9 +50,25 @@ struct TextOf {
         for (const double number : list) text += (text.empty() ? "" : ",") + shortest(number);
         return text;
     }
+
+    std::string operator()(const Records& records) const {
+        return text_from_json(to_json(Value(records)));
+    }
 };
 
 }  // namespace
+
+Records::Records(std::vector<Arguments> list)
+    : list_(std::make_shared<const std::vector<Arguments>>(std::move(list))) {}
+
+const std::vector<Arguments>& Records::list() const {
+    static const std::vector<Arguments> none;
+    return list_ ? *list_ : none;
+}
+
+bool Records::operator==(const Records& other) const {
+    return list_ == other.list_ || list() == other.list();
+}
 
 std::string to_text(const Value& value) {
     return std::visit(TextOf{}, value);
@@ -78,6 +98,10 @@ Vec3 Arguments::point(const std::string& name) const {
 
 const std::vector<double>& Arguments::list(const std::string& name) const {
     return typed<std::vector<double>>(values_, name, "a list of numbers");
+}
+
+const Records& Arguments::records(const std::string& name) const {
+    return typed<Records>(values_, name, "a list of records");
 }
 
 std::optional<double> Arguments::optional_real(const std::string& name) const {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,9 +13,27 @@
 
 namespace vesselbench {
 
+class Arguments;
+
+/// A list of records, each of named values: the dabs of a stroke. An immutable value that copies
+/// share, so that edits, logs and snapshots may hold long ones.
+class Records {
+public:
+    Records() = default;
+    explicit Records(std::vector<Arguments> list);
+
+    [[nodiscard]] const std::vector<Arguments>& list() const;
+
+    bool operator==(const Records& other) const;
+
+private:
+    std::shared_ptr<const std::vector<Arguments>> list_;  ///< null: empty
+};
+
 /// One argument's value. Its text form is the command line's: true|false, 12, 0.5, text, x,y,z,
-/// 1,2,3.
-using Value = std::variant<bool, std::int64_t, double, std::string, Vec3, std::vector<double>>;
+/// 1,2,3, and JSON for records: [{"place":[1.0,2.0,3.0],"way":"wall"}].
+using Value =
+    std::variant<bool, std::int64_t, double, std::string, Vec3, std::vector<double>, Records>;
 
 /// Named values of an operation, by parameter name. An absent one takes its default or is decided
 /// by the operation.
@@ -39,6 +58,7 @@ public:
     [[nodiscard]] const std::string& text(const std::string& name) const;
     [[nodiscard]] Vec3 point(const std::string& name) const;
     [[nodiscard]] const std::vector<double>& list(const std::string& name) const;
+    [[nodiscard]] const Records& records(const std::string& name) const;
 
     /// As above, but empty when absent (the operation decides by itself).
     [[nodiscard]] std::optional<double> optional_real(const std::string& name) const;

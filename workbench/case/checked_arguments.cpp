@@ -28,6 +28,19 @@ GivenArguments given_arguments(const Operation& operation, const Arguments& give
     return result;
 }
 
+Arguments with_records(const Operation& operation, Arguments stored) {
+    for (const Parameter& parameter : operation.parameters) {
+        if (parameter.type != ParameterType::Records || !stored.has(parameter.name)) continue;
+        const Value value = stored.values().at(parameter.name);
+        if (std::holds_alternative<Records>(value)) continue;
+        try {
+            stored.set(parameter.name, checked_value(parameter, value));
+        } catch (const UsageError&) {  // said when it runs
+        }
+    }
+    return stored;
+}
+
 void check_complete(const GivenArguments& given) {
     for (const Parameter& parameter : given.operation().parameters)
         if (parameter.required && !parameter.default_value && !given->has(parameter.name))

@@ -60,6 +60,11 @@ private:
 /// \throw UsageError as GivenArguments::set
 [[nodiscard]] GivenArguments given_arguments(const Operation& operation, const Arguments& given);
 
+/// Stored arguments with the records that flat lists of their values stand for, as projects of
+/// earlier versions have them. Other arguments stay as they are, and so does a list that stands for
+/// no records: an edit that runs with it is refused.
+[[nodiscard]] Arguments with_records(const Operation& operation, Arguments stored);
+
 /// \throw UsageError that names the operation and the first required parameter that is missing
 void check_complete(const GivenArguments& given);
 

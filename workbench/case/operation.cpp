@@ -33,7 +33,7 @@ const Parameter& find_parameter(const Operation& operation, const std::string& n
     std::vector<std::string> names;
     for (const Parameter& parameter : operation.parameters) {
         if (parameter.name == name) return parameter;
-        names.push_back(parameter.name);
+        if (parameter.use != Use::Decision) names.push_back(parameter.name);
     }
     const std::string takes = names.empty() ? "it has none" : "its parameters are " + joined(names);
     throw UsageError(operation.name + " has no parameter '" + name + "'" +

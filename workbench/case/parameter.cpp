@@ -10,6 +10,8 @@
 #include "geometry/kernel/printable.h"
 #include "geometry/kernel/wording.h"
 #include "workbench/case/near_names.h"
+#include "workbench/case/parameter_texts.h"
+#include "workbench/case/record_values.h"
 
 namespace vesselbench {
 
@@ -33,14 +35,10 @@ std::string allowed_range(const Parameter& parameter) {
 /// The names in a text, as far as they have to follow the grammar of names.
 std::vector<std::string> names_in(const Parameter& parameter, const std::string& text) {
     if (parameter.meaning == Meaning::Name) return {text};
-    if (parameter.meaning != Meaning::Names && parameter.meaning != Meaning::Openings &&
-        parameter.meaning != Meaning::Patches)
-        return {};
+    if (parameter.meaning != Meaning::Names && parameter.meaning != Meaning::Openings) return {};
     std::vector<std::string> names;
     std::istringstream list(text);
-    for (std::string entry; std::getline(list, entry, ',');)
-        names.push_back(parameter.meaning == Meaning::Patches ? entry.substr(entry.find(':') + 1)
-                                                              : entry);
+    for (std::string entry; std::getline(list, entry, ',');) names.push_back(entry);
     return names;
 }
 
@@ -51,9 +49,6 @@ std::string wanted_text(const Parameter& parameter) {
         case Meaning::Names:
         case Meaning::Openings:
             return "names of " + plain_name_rule() + ", separated by commas";
-        case Meaning::Patches:
-            return "kind:name of each opening, separated by commas, the names of " +
-                   plain_name_rule();
         default:
             return "a text";
     }
@@ -77,6 +72,9 @@ std::string wanted(const Parameter& parameter) {
                    (parameter.choices.empty() ? "" : ", or " + joined(parameter.choices));
         case ParameterType::List:
             return "numbers separated by commas" + in_range;
+        case ParameterType::Records:
+            return "records as JSON, " + range_text(parameter) +
+                   ", or the values of their fields one after the other, separated by commas";
         case ParameterType::Text:
             return wanted_text(parameter);
         case ParameterType::File:
@@ -85,11 +83,12 @@ std::string wanted(const Parameter& parameter) {
     return "";
 }
 
-[[noreturn]] void refuse(const Parameter& parameter, const std::string& text) {
+[[noreturn]] void refuse(const Parameter& parameter, const std::string& called,
+                         const std::string& text) {
     const std::string near = parameter.type == ParameterType::Choice
                                  ? did_you_mean(text, parameter.choices)
                                  : std::string();
-    throw UsageError("parameter '" + parameter.name + "' = '" + shortened(printable(text)) +
+    throw UsageError(called + " = '" + shortened(printable(text)) +
                      "' is not allowed: it must be " + wanted(parameter) + near);
 }
 
@@ -142,6 +141,8 @@ std::optional<Value> value_from_text(const Parameter& parameter, const std::stri
         case ParameterType::Choice:
         case ParameterType::Text:
             return Value(text);
+        case ParameterType::Records:
+            break;
     }
     return std::nullopt;
 }
@@ -154,7 +155,10 @@ std::vector<double> numbers_of(const Value& value) {
     return {};
 }
 
-std::optional<Value> in_type(const Parameter& parameter, const Value& value) {
+std::optional<Value> in_type(const Parameter& parameter, const Value& value,
+                             const std::string& called) {
+    if (parameter.type == ParameterType::Records) return checked_records(parameter, value, called);
+    if (std::holds_alternative<Records>(value)) return std::nullopt;
     if (const auto* text = std::get_if<std::string>(&value))
         return value_from_text(parameter, *text);
     if (std::holds_alternative<bool>(value))
@@ -206,11 +210,15 @@ bool holds(const Condition& condition, const Parameter& parameter, const std::st
 }
 
 Value checked_value(const Parameter& parameter, const Value& value) {
+    return checked_value(parameter, value, "parameter '" + parameter.name + "'");
+}
+
+Value checked_value(const Parameter& parameter, const Value& value, const std::string& called) {
     const auto* text = std::get_if<std::string>(&value);
     if (text != nullptr && parameter.type != ParameterType::File)
-        require_utf8(*text, "parameter '" + parameter.name + "' =");
-    const std::optional<Value> typed = in_type(parameter, value);
-    if (!typed || !in_range(parameter, *typed)) refuse(parameter, to_text(value));
+        require_utf8(*text, called + " =");
+    const std::optional<Value> typed = in_type(parameter, value, called);
+    if (!typed || !in_range(parameter, *typed)) refuse(parameter, called, to_text(value));
     return *typed;
 }
 

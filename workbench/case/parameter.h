@@ -9,7 +9,7 @@
 
 namespace vesselbench {
 
-enum class ParameterType { Flag, Integer, Real, Text, Choice, Point, List, File };
+enum class ParameterType { Flag, Integer, Real, Text, Choice, Point, List, Records, File };
 
 /// What a value names in the model or the image, so that a user can point at it.
 enum class Meaning {
@@ -24,7 +24,6 @@ enum class Meaning {
     Name,      ///< of an opening, attribute or neighbour (geometry/kernel/plain_name.h)
     Names,     ///< several, separated by commas
     Openings,  ///< names of openings, separated by commas
-    Patches,   ///< kind:name of openings, separated by commas
     Planes,    ///< openings as planes
     Unit,      ///< of the model's lengths: another one moves every place
     Dabs       ///< of a brush
@@ -39,11 +38,14 @@ struct Condition {
 
 [[nodiscard]] std::string to_string(const Condition& condition);  ///< "filter=a or b", "tip"
 
-/// How forms show a parameter.
+/// How forms and pages show a parameter.
 enum class Use {
     Usual,
     Rare,     ///< with others that are seldom needed, folded away unless it is given
-    Recorded  ///< an earlier run or a stroke fills it in: shown only where it is given
+    IfGiven,  ///< only where it is given: another name of a parameter
+    /// What a run decides and its edit stores beside its arguments, for runs on other input: no
+    /// field of a form and no parameter of a page. A tool, a recipe or a command may give it.
+    Decision
 };
 
 /// One documented parameter: the command line's option, the check and its error text, the recipe's
@@ -64,6 +66,9 @@ struct Parameter {
     std::optional<Condition> only_with = {};  ///< without it, no effect; none: unconditional
     Meaning meaning = Meaning::None;
     Use use = Use::Usual;
+    /// Of each of its Records, none of which has fields itself. The others take their defaults, or
+    /// are required, as parameters do.
+    std::vector<Parameter> fields = {};
 };
 
 /// \param parameter that the condition names
@@ -72,9 +77,15 @@ struct Parameter {
                          const std::string& text);
 
 /// The value in the parameter's type: an integer is accepted as a real number, three numbers as a
-/// point, a text is parsed.
+/// point, a text is parsed. Records are also read from the values of all their fields, one after
+/// the other, as numbers or as texts between commas and colons: x,y,z of a point, and the name or
+/// the index of a choice.
 /// \throw UsageError that names the parameter, the value and what is allowed, if the value is of
 /// another type or out of range, or contains a name outside the grammar of names
 [[nodiscard]] Value checked_value(const Parameter& parameter, const Value& value);
+
+/// \param called the parameter in error texts: "parameter 'dabs', record 2, field 'radius'"
+[[nodiscard]] Value checked_value(const Parameter& parameter, const Value& value,
+                                  const std::string& called);
 
 }  // namespace vesselbench

@@ -18,6 +18,14 @@ std::string bounds_text(const Parameter& parameter) {
     return above ? "<= " + to : "";
 }
 
+/// [{"place": ..., "way": ...}, ...]
+std::string record_text(const Parameter& parameter) {
+    std::string fields;
+    for (const Parameter& field : parameter.fields)
+        fields += (fields.empty() ? "\"" : ", \"") + field.name + "\": ...";
+    return "[{" + fields + "}, ...]";
+}
+
 }  // namespace
 
 std::string to_string(ParameterType type) {
@@ -36,6 +44,8 @@ std::string to_string(ParameterType type) {
             return "point";
         case ParameterType::List:
             return "list";
+        case ParameterType::Records:
+            return "records";
         case ParameterType::File:
             return "file";
     }
@@ -55,6 +65,8 @@ std::string range_text(const Parameter& parameter) {
                    (parameter.choices.empty() ? "" : "|" + joined(parameter.choices, "|"));
         case ParameterType::List:
             return "a,b,..." + bounded;
+        case ParameterType::Records:
+            return record_text(parameter);
         case ParameterType::Integer:
         case ParameterType::Real:
             return (bounds.empty() ? "number" : bounds) +

@@ -8,7 +8,8 @@ namespace vesselbench {
 
 [[nodiscard]] std::string to_string(ParameterType type);  ///< "flag", "integer", "real" ...
 
-/// What a parameter may be: "0 ... 1", ">= 1", "x,y,z, > 0", "keep|smooth|round".
+/// What a parameter may be: "0 ... 1", ">= 1", "x,y,z, > 0", "keep|smooth|round",
+/// "[{\"place\": ..., \"way\": ...}, ...]".
 [[nodiscard]] std::string range_text(const Parameter& parameter);
 
 /// "[mm]"; empty for texts and ratios.

@@ -70,9 +70,9 @@ void check_attribute(const std::string& name) {
 /// at its end, by outcome(): scene() is the stroke as it is brushed.
 class LiveBrush final : public Stepper {
 public:
-    LiveBrush(DabUse use, const BrushSettings& settings, const Scene& scene,
+    LiveBrush(std::string operation, const BrushSettings& settings, const Scene& scene,
               const Arguments& arguments)
-        : use_(std::move(use)),
+        : operation_(std::move(operation)),
           settings_(settings),
           before_(scene),
           places_(std::make_shared<const SurfaceDistance>(distance_to(surface_of(scene)))),
@@ -82,12 +82,12 @@ public:
     void add(const Arguments& more, Progress& progress) override {
         for (const auto& [name, value] : more.values())
             if (!is_dab_argument(name))
-                throw UsageError(use_.operation + ": " + name +
+                throw UsageError(operation_ + ": " + name +
                                  " stays through a stroke; start another one");
         check_continued(more);
         Outcome read;
         read.resolved = more;
-        const auto dabs = resolved_dabs(use_, surface_of(before_), *places_, read);
+        const auto dabs = resolved_dabs(operation_, surface_of(before_), *places_, read);
         if (dabs.size() == 1)
             brush(*stroke_, dabs, progress);  // leaves the stroke unchanged if it throws
         else {
@@ -95,24 +95,27 @@ public:
             brush(*longer, dabs, progress);
             stroke_ = std::move(longer);
         }
-        append_dabs(stroke_->resolved, read.resolved);
+        for (const auto& [name, value] : read.resolved.values()) stroke_->resolved.set(name, value);
         stroke_->warnings.insert(stroke_->warnings.end(), read.warnings.begin(),
                                  read.warnings.end());
         scene_.reset();
     }
 
     [[nodiscard]] const Scene& scene() const override {
-        if (stroke_->dabs == 0) return before_;
+        if (stroke_->dabs.empty()) return before_;
         if (!scene_) scene_ = scene_with(stroke_->brush.surface());
         return *scene_;
     }
 
-    [[nodiscard]] const Arguments& resolved() const override { return stroke_->resolved; }
+    [[nodiscard]] const Arguments& resolved() const override {
+        if (!stroke_->dabs.empty()) stroke_->resolved.set("dabs", listed(stroke_->dabs));
+        return stroke_->resolved;
+    }
 
     [[nodiscard]] Outcome outcome(Progress& progress) override {
-        if (stroke_->dabs == 0) throw_without_dabs(use_);
+        if (stroke_->dabs.empty()) throw_without_dabs(operation_);
         Outcome outcome;
-        outcome.resolved = stroke_->resolved;
+        outcome.resolved = resolved();
         outcome.warnings = stroke_->warnings;
         if (stroke_->empty > 0)
             outcome.warnings.push_back(
@@ -123,7 +126,7 @@ public:
             warn_of_crossings(ended.keep_walls_apart(progress), "brush-crosses-walls",
                               {{.arguments = {{"strength", ""}}}}, outcome);
         outcome.scene = scene_with(ended.surface());
-        ordered_json report = {{"dabs", stroke_->dabs}};
+        ordered_json report = {{"dabs", stroke_->dabs.size()}};
         const Surface &before = surface_of(before_), &after = surface_of(outcome.scene);
         if (settings_.kind == BrushKind::Weight)
             report.update(painting(before, after, settings_.attribute));
@@ -137,9 +140,9 @@ private:
     /// A stroke with its arguments and warnings.
     struct Stroke {
         BrushStroke brush;
-        Arguments resolved;
+        Arguments resolved;  ///< whose dabs are those added last
         std::vector<Diagnostic> warnings = {};
-        std::size_t dabs = 0;
+        std::vector<Dab> dabs = {};
         std::size_t empty = 0;  ///< dabs that changed no vertex
     };
 
@@ -149,18 +152,18 @@ private:
             try {
                 if (stroke.brush.add(dabs[i]).empty()) ++stroke.empty;
             } catch (const AlgorithmFailure& failure) {
-                throw AlgorithmFailure(dab_name(use_.operation, stroke.dabs, dabs[i]) + ": " +
+                throw AlgorithmFailure(dab_name(operation_, stroke.dabs.size(), dabs[i]) + ": " +
                                        failure.what());
             }
-            ++stroke.dabs;
+            stroke.dabs.push_back(dabs[i]);
         }
     }
 
     /// `at` and what belongs to it make one dab; a stroke of several is given by `dabs` alone.
     void check_continued(const Arguments& more) const {
         const bool by_dabs = more.values().size() == 1 && more.has("dabs");
-        if (stroke_->dabs > 0 && (!by_dabs || stroke_->resolved.has("at")))
-            throw UsageError(use_.operation +
+        if (!stroke_->dabs.empty() && (!by_dabs || stroke_->resolved.has("at")))
+            throw UsageError(operation_ +
                              ": at makes a stroke of one dab; a longer one is given by dabs alone");
     }
 
@@ -171,7 +174,7 @@ private:
         return scene;
     }
 
-    DabUse use_;
+    std::string operation_;
     BrushSettings settings_;
     Scene before_;
     std::shared_ptr<const SurfaceDistance> places_;
@@ -187,10 +190,10 @@ Arguments dab_part(const Arguments& arguments, bool dabs) {
     return part;
 }
 
-std::unique_ptr<Stepper> live_brush(const DabUse& use, const BrushSettings& settings,
+std::unique_ptr<Stepper> live_brush(const std::string& operation, const BrushSettings& settings,
                                     const Scene& scene, const Arguments& arguments,
                                     Progress& progress) {
-    auto live = std::make_unique<LiveBrush>(use, settings, scene, dab_part(arguments, false));
+    auto live = std::make_unique<LiveBrush>(operation, settings, scene, dab_part(arguments, false));
     if (const Arguments dabs = dab_part(arguments, true); !dabs.values().empty())
         live->add(dabs, progress);
     return live;
@@ -200,31 +203,31 @@ std::unique_ptr<Stepper> live_smooth(const Scene& scene, const CheckedArguments&
                                      Progress& progress) {
     const BrushSettings settings{.kind = BrushKind::Smooth,
                                  .passes = static_cast<int>(arguments->integer("passes"))};
-    return live_brush({"brush-smooth", kSmoothWeakest}, settings, scene, arguments, progress);
+    return live_brush("brush-smooth", settings, scene, arguments, progress);
 }
 
 std::unique_ptr<Stepper> live_inflate(const Scene& scene, const CheckedArguments& arguments,
                                       Progress& progress) {
-    return live_brush({"brush-inflate", kWeakest}, {.kind = BrushKind::Inflate}, scene, arguments,
-                      progress);
+    return live_brush("brush-inflate", {.kind = BrushKind::Inflate}, scene, arguments, progress);
 }
 
 std::unique_ptr<Stepper> live_weight(const Scene& scene, const CheckedArguments& arguments,
                                      Progress& progress) {
     const std::string& name = arguments->text("attribute");
     check_attribute(name);
-    return live_brush({"brush-weight", kWeakest}, {.kind = BrushKind::Weight, .attribute = name},
-                      scene, arguments, progress);
+    return live_brush("brush-weight", {.kind = BrushKind::Weight, .attribute = name}, scene,
+                      arguments, progress);
 }
 
 /// Common part of all brushes.
-Operation brush(const DabUse& use, const std::string& summary, const std::string& strength) {
-    return {.name = use.operation,
+Operation brush(const std::string& name, double weakest, const std::string& summary,
+                const std::string& strength) {
+    return {.name = name,
             .usual_step = Step::LocalRepair,
             .allowed = {Step::Source, Step::Branches, Step::LocalRepair, Step::Openings,
                         Step::Smoothing, Step::Deformation, Step::Remeshing},
             .summary = summary,
-            .parameters = dab_parameters(use.weakest, strength),
+            .parameters = dab_parameters(weakest, strength),
             .thesis = "4.2.3-4.2.4",
             .example = {.placed = {"at"},
                         .given = {{"radius", 0.5}, {"strength", 0.5}},
@@ -235,7 +238,7 @@ Operation brush(const DabUse& use, const std::string& summary, const std::string
 
 Operation brush_smooth_operation() {
     Operation operation =
-        brush({"brush-smooth", kSmoothWeakest},
+        brush("brush-smooth", kSmoothWeakest,
               "smooth the wall under a brush; caps, rims and open boundaries are kept",
               "fraction of the way to the one-ring mean at the centre, per pass");
     operation.parameters.push_back({.name = "passes",
@@ -250,7 +253,7 @@ Operation brush_smooth_operation() {
 
 Operation brush_inflate_operation() {
     Operation operation =
-        brush({"brush-inflate", kWeakest},
+        brush("brush-inflate", kWeakest,
               "lift or lower the wall under a brush; caps, rims and open boundaries are kept",
               "the centre moves out by a tenth of the brush radius at 1, in at -1");
     operation.start = &live_inflate;
@@ -259,7 +262,7 @@ Operation brush_inflate_operation() {
 
 Operation brush_weight_operation() {
     Operation operation =
-        brush({"brush-weight", kWeakest}, "paint a weight on the surface's vertices",
+        brush("brush-weight", kWeakest, "paint a weight on the surface's vertices",
               "added to the weight, which is limited to 0 to 1");
     operation.parameters.push_back(
         {.name = "attribute",

@@ -307,7 +307,7 @@ std::vector<Parameter> threshold_parameters() {
          .unit = "-",
          .help = "synonym of threshold, for level sets",
          .only_with = of_intensities,
-         .use = Use::Recorded},
+         .use = Use::IfGiven},
         {.name = "inside",
          .type = Choice,
          .help = "side of the threshold on which the vessel lies; default: above, or for a level "

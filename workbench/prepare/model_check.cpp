@@ -101,7 +101,7 @@ std::optional<Cutter> cutter_of(const std::vector<LogEntry>& edits, const Vec3& 
     double least = std::numeric_limits<double>::infinity();
     for (const LogEntry& entry : edits) {
         if (!cuts_ends(entry) || !entry.result || !entry.result->resolved.has("planes")) continue;
-        for (const PlannedOpening& made : openings_in(entry.result->resolved.list("planes"))) {
+        for (const PlannedOpening& made : openings_in(entry.result->resolved.records("planes"))) {
             const double distance = (made.place.plane.point - opening).norm();
             if (distance >= least) continue;
             least = distance;

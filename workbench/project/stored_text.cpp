@@ -83,13 +83,36 @@ struct ToJson {
         for (const double number : list) json.push_back(number_to_json(number));
         return json;
     }
+
+    Json operator()(const Records& records) const {
+        Json list = Json::array();
+        for (const Arguments& record : records.list()) list.push_back(stored_json(record));
+        return {{"records", std::move(list)}};
+    }
+
+    static Json stored_json(const Arguments& arguments) {
+        Json json = Json::object();
+        for (const auto& [name, value] : arguments.values())
+            json[name] = std::visit(ToJson{}, value);
+        return json;
+    }
 };
+
+Arguments arguments_from_json(const Json& json);
+
+Records records_from_json(const Json& json) {
+    if (!json.is_array()) refuse_json(json, "stored records", "a list");
+    std::vector<Arguments> records;
+    for (const Json& record : json) records.push_back(arguments_from_json(record));
+    return Records(std::move(records));
+}
 
 Value value_from_json(const Json& json) {
     if (json.is_boolean()) return json.get<bool>();
     if (json.is_number_integer()) return json_integer<std::int64_t>(json, "a stored number");
     if (json.is_string()) return json.get<std::string>();
     if (json.is_object() && json.contains("bytes")) return bytes_from_json(json);
+    if (json.is_object() && json.contains("records")) return records_from_json(json["records"]);
     if (json.is_object() && json.contains("x")) {
         JsonFields point(json, "a stored point");
         const auto number = [&](const char* key) {
@@ -106,12 +129,17 @@ Value value_from_json(const Json& json) {
     return number_from_json(json);
 }
 
+Arguments arguments_from_json(const Json& json) {
+    if (!json.is_object()) refuse_json(json, "the stored arguments", "an object");
+    Arguments arguments;
+    for (const auto& [name, value] : json.items()) arguments.set(name, value_from_json(value));
+    return arguments;
+}
+
 }  // namespace
 
 std::string stored_text(const Arguments& arguments) {
-    Json json = Json::object();
-    for (const auto& [name, value] : arguments.values()) json[name] = std::visit(ToJson{}, value);
-    return stored_text(json);
+    return stored_text(ToJson::stored_json(arguments));
 }
 
 std::string stored_text(const Json& report) {
@@ -119,11 +147,7 @@ std::string stored_text(const Json& report) {
 }
 
 Arguments arguments_from_stored(const std::string& text) {
-    const Json json = json_from_text(text, "the stored arguments", kLargestStoredJson);
-    if (!json.is_object()) refuse_json(json, "the stored arguments", "an object");
-    Arguments arguments;
-    for (const auto& [name, value] : json.items()) arguments.set(name, value_from_json(value));
-    return arguments;
+    return arguments_from_json(json_from_text(text, "the stored arguments", kLargestStoredJson));
 }
 
 Bytes pack_text(const std::string& text) {

@@ -11,8 +11,8 @@
 namespace vesselbench {
 
 /// Arguments as JSON text, for projects and workers: every value is read back with its type and its
-/// bits, for any operation. Points are {"x", "y", "z"}, numbers not representable in JSON {"real":
-/// "inf"}.
+/// bits, for any operation. Points are {"x", "y", "z"}, records {"records": [...]}, numbers not
+/// representable in JSON {"real": "inf"}.
 [[nodiscard]] std::string stored_text(const Arguments& arguments);
 
 /// A report's text; anything that is not UTF-8 (in a file's name) is replaced.

@@ -46,7 +46,7 @@ std::string words_of(std::string key) {
     return key + unit;
 }
 
-/// Longer lists, such as the planes of many cuts, are left to report.json.
+/// Longer lists are left to report.json.
 constexpr std::size_t kMostNumbers = 9;
 
 bool is_long_list(const Json& value) {
@@ -143,11 +143,17 @@ std::string volume_text(const Json& change) {
     return reason.is_string() ? "- (" + shown(reason) + ")" : "-";
 }
 
+/// Records, such as the planes of cuts, are left to report.json.
+std::string argument_shown(const Json& value) {
+    const bool records = value.is_array() && !value.empty() && value.front().is_object();
+    return records ? counted(value.size(), "record") : shown(value);
+}
+
 Json step_texts(const Json& step) {
     const Json& change = part_of(step, "change");
     std::vector<std::string> arguments;
     for (const auto& [name, value] : part_of(step, "resolved").items())
-        arguments.push_back(name + "=" + shown(value));
+        arguments.push_back(name + "=" + argument_shown(value));
     Json texts = texts_of(step, {"edit", "step", "operation"});
     texts.update(
         texts_of(change, {"triangles_after", "mean_deviation_mm", "largest_deviation_mm"}));

@@ -1,8 +1,10 @@
 #include "workbench/session/case_store.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "geometry/kernel/errors.h"
+#include "workbench/case/checked_arguments.h"
 
 namespace vesselbench {
 
@@ -36,8 +38,9 @@ std::map<EditRef, RunRange> runs_in(const History& history) {
 
 }  // namespace
 
-CaseStore::CaseStore(ProjectFile project, std::size_t scene_bytes)
+CaseStore::CaseStore(ProjectFile project, OperationLookup find, std::size_t scene_bytes)
     : project_(std::move(project)),
+      find_(std::move(find)),
       history_(std::make_shared<const History>(project_.history())),
       cache_(scene_bytes) {}
 
@@ -74,7 +77,7 @@ void CaseStore::commit_results(History next, const std::vector<NewResult>& resul
 
 void CaseStore::set_note(EditRef edit, const std::string& note) {
     check_writable();
-    remember({edit}, {});
+    remember({edit});
     project_.set_note(edit, note);
     edits_.at(edit).note = note;
     past_.reset();
@@ -91,13 +94,43 @@ std::optional<Scene> CaseStore::at_hand(ResultId id) {
     return cache_.find(id);
 }
 
-void CaseStore::remember(std::vector<EditRef> edits, std::vector<ResultId> results) {
+EditRecord CaseStore::edit(EditRef edit) {
+    remember({edit});
+    return edits_.at(edit);
+}
+
+/// What is stored of an operation that this program does not know stays as it is.
+Arguments CaseStore::typed(const std::string& operation, Arguments stored) const {
+    const Operation* known = nullptr;
+    try {
+        known = &find_(operation);
+    } catch (const UsageError&) {
+        return stored;
+    }
+    return with_records(*known, std::move(stored));
+}
+
+void CaseStore::remember(std::vector<EditRef> edits) {
     std::erase_if(edits, [&](EditRef edit) { return edits_.contains(edit); });
+    std::ranges::sort(edits);
+    edits.erase(std::ranges::unique(edits).begin(), edits.end());
+    if (edits.empty()) return;
+    for (auto& [ref, record] : project_.edits(edits)) {
+        record.given = typed(record.operation, std::move(record.given));
+        edits_.emplace(ref, std::move(record));
+    }
+}
+
+void CaseStore::remember(std::vector<EditRef> edits, std::vector<ResultId> results) {
     std::erase_if(results, [&](ResultId id) { return records_.contains(id); });
-    if (!edits.empty()) edits_.merge(project_.edits(edits));
-    if (results.empty()) return;
-    for (auto& [id, record] : project_.results(results))
+    std::map<ResultId, ResultRecord> read;
+    if (!results.empty()) read = project_.results(results);
+    for (const auto& [id, record] : read) edits.push_back(record.edit);
+    remember(std::move(edits));
+    for (auto& [id, record] : read) {
+        record.resolved = typed(edits_.at(record.edit).operation, std::move(record.resolved));
         records_[id] = std::make_shared<const ResultRecord>(std::move(record));
+    }
 }
 
 /// Edits and results are only ever added; set_note() resets it.

@@ -10,6 +10,7 @@
 #include "workbench/project/source_files.h"
 #include "workbench/session/scene_cache.h"
 #include "workbench/session/snapshot.h"
+#include "workbench/worker/worker.h"
 
 namespace vesselbench {
 
@@ -17,8 +18,9 @@ namespace vesselbench {
 /// memory. Not thread-safe; the snapshots it returns are.
 class CaseStore {
 public:
+    /// \param find of operations, which say what stored arguments are
     /// \param scene_bytes [bytes] of scenes held in memory
-    CaseStore(ProjectFile project, std::size_t scene_bytes);
+    CaseStore(ProjectFile project, OperationLookup find, std::size_t scene_bytes);
 
     [[nodiscard]] const History& history() const { return *history_; }
 
@@ -51,7 +53,7 @@ public:
     [[nodiscard]] bool is_own(ResultId id) const { return own_scenes_.contains(id); }
 
     /// \throw InvalidInput if the project lacks it
-    [[nodiscard]] EditRecord edit(EditRef edit) const { return project_.edit(edit); }
+    [[nodiscard]] EditRecord edit(EditRef edit);
 
     [[nodiscard]] std::shared_ptr<const ResultRecord> record(ResultId id);
 
@@ -78,10 +80,13 @@ public:
 
 private:
     void remember(std::vector<EditRef> edits, std::vector<ResultId> results);
+    void remember(std::vector<EditRef> edits);
+    [[nodiscard]] Arguments typed(const std::string& operation, Arguments stored) const;
     void renew_past();
     [[nodiscard]] std::map<std::string, Scene> scenes_at_hand();
 
     ProjectFile project_;
+    OperationLookup find_;
     std::shared_ptr<const History> history_;
     SceneCache cache_;
     ReadFiles read_;

@@ -1,8 +1,8 @@
 #include "workbench/session/moved_places.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
+#include <utility>
 
 namespace vesselbench {
 
@@ -17,35 +17,22 @@ double millimetres_in(const std::string& unit) {
 
 bool is_place(const Parameter& parameter) {
     using enum Meaning;
-    constexpr Meaning kPlaces[] = {Place, Tip, Branch, Inlet, Seed, Box, Planes, Dabs};
-    return parameter.unit == "mm" && std::ranges::count(kPlaces, parameter.meaning) > 0;
+    constexpr Meaning kPlaces[] = {Place, Tip, Branch, Inlet, Seed, Box};
+    return parameter.type == ParameterType::Records ||
+           (parameter.unit == "mm" && std::ranges::count(kPlaces, parameter.meaning) > 0);
 }
 
-/// Which numbers of a record in a list are lengths; the others are directions and choices.
-using Layout = std::vector<bool>;
-
-const Layout kPoint = {true, true, true};
-/// Tip, point of the plane, normal, way.
-const Layout kOpening = {true, true, true, true, true, true, false, false, false, false};
-/// Place, way.
-const Layout kClosing = {true, true, true, false};
-/// Point, normal, local radius, radius of the brush, strength, falloff.
-const Layout kDab = {true, true, true, false, false, false, true, true, false, false};
-
-/// True if each record has a unit normal where an opening has one.
-bool holds_openings(const std::vector<double>& numbers) {
-    constexpr double kTolerance = 1e-3;
-    if (numbers.size() % kOpening.size() != 0) return false;
-    for (std::size_t i = 0; i < numbers.size(); i += kOpening.size())
-        if (std::abs(std::hypot(numbers[i + 6], numbers[i + 7], numbers[i + 8]) - 1.0) > kTolerance)
-            return false;
-    return true;
-}
-
-const Layout& layout_of(const Parameter& parameter, const std::vector<double>& numbers) {
-    if (parameter.meaning == Meaning::Dabs) return kDab;
-    if (parameter.meaning != Meaning::Planes) return kPoint;
-    return holds_openings(numbers) ? kOpening : kClosing;
+Records scaled(const Parameter& parameter, const Records& records, double factor) {
+    std::vector<Arguments> moved = records.list();
+    for (Arguments& record : moved)
+        for (const Parameter& field : parameter.fields) {
+            if (field.unit != "mm" || !record.has(field.name)) continue;
+            if (field.type == ParameterType::Point)
+                record.set(field.name, Vec3(factor * record.point(field.name)));
+            else
+                record.set(field.name, factor * record.real(field.name));
+        }
+    return Records(std::move(moved));
 }
 
 }  // namespace
@@ -69,10 +56,10 @@ Arguments with_scaled_places(const Operation& operation, Arguments given, double
             given.set(parameter.name, Vec3(factor * *point));
         } else if (const auto* list = std::get_if<std::vector<double>>(&value)) {
             std::vector<double> numbers = *list;
-            const Layout& layout = layout_of(parameter, numbers);
-            for (std::size_t i = 0; i < numbers.size(); ++i)
-                if (layout[i % layout.size()]) numbers[i] *= factor;
+            for (double& number : numbers) number *= factor;
             given.set(parameter.name, std::move(numbers));
+        } else if (const auto* records = std::get_if<Records>(&value)) {
+            given.set(parameter.name, scaled(parameter, *records, factor));
         }
     }
     return given;

@@ -18,7 +18,7 @@ namespace vesselbench {
                                                 const Arguments& resolved_before,
                                                 const Arguments& resolved_now);
 
-/// The arguments with all places in them scaled. A place's normal and ways stay; a brush stroke is
+/// The arguments with all places in them scaled, and all lengths in records: a brush stroke is
 /// scaled as a whole.
 [[nodiscard]] Arguments with_scaled_places(const Operation& operation, Arguments given,
                                            double factor);

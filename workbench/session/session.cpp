@@ -69,7 +69,7 @@ struct Session::Parts {
 
     Parts(SessionOptions o, ProjectFile project)
         : options(std::move(o)),
-          store(std::move(project), options.scene_bytes),
+          store(std::move(project), options.find, options.scene_bytes),
           runner(store, options) {
         if (options.author.empty()) options.author = printable(login_name());
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,34 +15,25 @@ namespace vesselbench {
 /// \param strength effect of the strength
 [[nodiscard]] std::vector<Parameter> dab_parameters(double weakest, const std::string& strength);
 
-/// Context of a brush's dabs: its name for error texts, and its smallest strength.
-struct DabUse {
-    std::string operation;
-    double weakest = 0.0;  ///< 0 or -1 [-]
-};
-
 /// The dabs that are given or that an earlier run resolved; else the one at `at`, which is written
 /// into the arguments, so that a replay repeats it.
+/// \param operation the brush's name, for error texts
 /// \param places of the surface
 /// \param outcome its resolved arguments are read and completed; receives a warning if `at` is away
 /// from the surface
 /// \throw UsageError that names the dab and the value if the arguments make no sense;
 /// AlgorithmFailure if `at` is far away from the surface, or a radius far larger than it
-[[nodiscard]] std::vector<Dab> resolved_dabs(const DabUse& use, const Surface& surface,
+[[nodiscard]] std::vector<Dab> resolved_dabs(const std::string& operation, const Surface& surface,
                                              const SurfaceDistance& places, Outcome& outcome);
 
-/// A dab as the numbers of `dabs`.
-[[nodiscard]] std::vector<double> listed(const Dab& dab);
+/// Dabs as the records of `dabs`.
+[[nodiscard]] Records listed(std::span<const Dab> dabs);
 
 /// True for the names of dab_parameters.
 [[nodiscard]] bool is_dab_argument(const std::string& name);
 
-/// Appends the resolved dabs of `more` to those of a stroke; if it had none, also copies `at` and
-/// its companions.
-void append_dabs(Arguments& stroke, const Arguments& more);
-
 /// \throw UsageError that says how dabs are given
-[[noreturn]] void throw_without_dabs(const DabUse& use);
+[[noreturn]] void throw_without_dabs(const std::string& operation);
 
 /// "brush-smooth: dab 2 at (1, 2, 3) mm"
 [[nodiscard]] std::string dab_name(const std::string& operation, std::size_t index, const Dab& dab);

@@ -176,15 +176,16 @@ void leave_out_gone(const Surface& surface, OpeningPlan& plan) {
 
 /// The plan resolved by an earlier run.
 OpeningPlan stored_plan(const Surface& surface, const Arguments& arguments) {
-    OpeningPlan plan{.openings = openings_in(arguments.list("planes"))};
-    const std::vector<Patch> patches = patches_in(arguments.text("names"));
-    if (arguments.has("closings")) plan.closings = closings_in(arguments.list("closings"));
+    const Records& planes = arguments.records("planes");
+    OpeningPlan plan{.openings = openings_in(planes)};
+    if (plan.openings.size() < planes.list().size())
+        throw UsageError("clip-opening: each normal in planes must be of unit length");
+    const std::vector<Patch> patches = patches_in(arguments.records("names"));
+    if (arguments.has("closings")) plan.closings = closings_in(arguments.records("closings"));
     const bool nothing = plan.openings.empty() && plan.closings.empty();
     if (nothing || patches.size() < plan.openings.size())
         throw UsageError(
-            "clip-opening: planes needs 10 numbers per opening (tip, point, unit normal, 1 for a "
-            "kept cap, 2 for a rim capped as it is, 3 for another name only), and names as many "
-            "entries kind:name");
+            "clip-opening: planes needs a record for each opening, and names as many records");
     for (std::size_t i = 0; i < plan.openings.size(); ++i) plan.openings[i].patch = patches[i];
     leave_out_gone(surface, plan);
     plan.ends = ends_of(plan);

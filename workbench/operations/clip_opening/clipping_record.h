@@ -6,14 +6,15 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "workbench/case/arguments.h"
 #include "workbench/operations/clip_opening/clipping.h"
 
 namespace vesselbench {
 
 /// What an edit keeps of a clipping: its resolved arguments, and the report.
 struct ClippingRecord {
-    std::vector<double> planes;
-    std::string names;
+    Records planes;
+    Records names;
     std::shared_ptr<nlohmann::ordered_json> report;  ///< `openings`; `ends`, if they were decided
 };
 

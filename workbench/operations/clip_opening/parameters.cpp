@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "geometry/kernel/errors.h"
+#include "workbench/operations/shared/opening_arguments.h"
 
 namespace vesselbench {
 
@@ -109,31 +110,25 @@ std::vector<Parameter> choice_parameters() {
              .use = Use::Rare}};
 }
 
-/// What an earlier run decided.
-std::vector<Parameter> resolved_parameters() {
-    using enum ParameterType;
-    return {
-        {.name = "planes",
-         .type = List,
-         .unit = "mm",
-         .help = "decisions of an earlier run, 10 numbers per opening: tip, point of the "
-                 "plane, unit normal out of the vessel, 1 if a good cap was kept, 2 if a flat "
-                 "rim was capped as it is, 3 if only its name changed; they are used as they are",
-         .meaning = Meaning::Planes,
-         .use = Use::Recorded},
-        {.name = "names",
-         .type = Text,
-         .help = "with planes: kind:name of each opening, separated by commas",
-         .meaning = Meaning::Patches,
-         .use = Use::Recorded},
-        {.name = "closings",
-         .type = List,
-         .unit = "mm",
-         .help = "with planes: decisions of an earlier run, 4 numbers per end without an "
-                 "opening: place, 0 if its rim was closed, 1 if its cap became wall, 2 if its "
-                 "stub was removed",
-         .meaning = Meaning::Planes,
-         .use = Use::Recorded}};
+/// What a run decides.
+std::vector<Parameter> decision_parameters() {
+    return {{.name = "planes",
+             .type = ParameterType::Records,
+             .help = "the openings, which are made as they are",
+             .meaning = Meaning::Planes,
+             .use = Use::Decision,
+             .fields = plane_fields()},
+            {.name = "names",
+             .type = ParameterType::Records,
+             .help = "role and name of each opening of planes, in their order",
+             .use = Use::Decision,
+             .fields = name_fields()},
+            {.name = "closings",
+             .type = ParameterType::Records,
+             .help = "with planes: what becomes of ends without an opening",
+             .meaning = Meaning::Planes,
+             .use = Use::Decision,
+             .fields = closing_fields()}};
 }
 
 }  // namespace
@@ -141,7 +136,7 @@ std::vector<Parameter> resolved_parameters() {
 std::vector<Parameter> clip_opening_parameters() {
     std::vector<Parameter> all = place_parameters();
     for (Parameter& parameter : choice_parameters()) all.push_back(std::move(parameter));
-    for (Parameter& parameter : resolved_parameters()) all.push_back(std::move(parameter));
+    for (Parameter& parameter : decision_parameters()) all.push_back(std::move(parameter));
     return all;
 }
 

@@ -1,97 +1,129 @@
 #include "workbench/operations/shared/opening_arguments.h"
 
+#include <algorithm>
 #include <cmath>
-#include <sstream>
+#include <utility>
 
 namespace vesselbench {
 
 namespace {
 
-constexpr std::size_t kNumbers = 10;        ///< of one opening in `planes`
-constexpr std::size_t kClosingNumbers = 4;  ///< of one end in `closings`
-constexpr double kUnitLength = 1e-6;        ///< a normal's length differs from 1 by less
+constexpr double kUnitLength = 1e-6;  ///< a normal's length differs from 1 by less
 
-Vec3 vector_at(const std::vector<double>& numbers, std::size_t i) {
-    return {numbers[i], numbers[i + 1], numbers[i + 2]};
+/// Of OpeningWay and of ClosingWay, in the order of their values, which flat lists contain.
+const std::vector<std::string> kOpeningWays = {"cut", "keep", "cap", "rename"};
+const std::vector<std::string> kClosingWays = {"fill", "wall", "remove"};
+
+template <class Way>
+Way way_in(const Arguments& record, const std::vector<std::string>& ways) {
+    return static_cast<Way>(std::ranges::find(ways, record.text("way")) - ways.begin());
 }
 
-constexpr double kKeptCap = 1.0, kCappedRim = 2.0, kRenamed = 3.0;
-
-OpeningWay way_of(double number) {
-    if (number == kCappedRim) return OpeningWay::CapRim;
-    if (number == kRenamed) return OpeningWay::Rename;
-    return number == 0.0 ? OpeningWay::Cut : OpeningWay::KeepCap;
+template <class Way>
+const std::string& name_of(Way way, const std::vector<std::string>& ways) {
+    return ways.at(static_cast<std::size_t>(way));
 }
 
-double number_of(OpeningWay way) {
-    if (way == OpeningWay::CapRim) return kCappedRim;
-    if (way == OpeningWay::Rename) return kRenamed;
-    return way == OpeningWay::KeepCap ? kKeptCap : 0.0;
+Parameter place_field(const std::string& name, const std::string& help) {
+    return {
+        .name = name, .type = ParameterType::Point, .unit = "mm", .help = help, .required = true};
 }
 
-PlannedOpening opening_at(const std::vector<double>& numbers, std::size_t i) {
-    return {.place = {.tip = vector_at(numbers, i),
-                      .plane = {vector_at(numbers, i + 3), vector_at(numbers, i + 6)}},
-            .way = way_of(numbers[i + 9]),
-            .patch = std::nullopt};
+Parameter choice_field(const std::string& name, const std::string& help,
+                       const std::vector<std::string>& choices) {
+    return {.name = name,
+            .type = ParameterType::Choice,
+            .help = help,
+            .choices = choices,
+            .required = true};
 }
 
-std::string escaped(const std::string& name) {
-    std::string text;
-    for (const char letter : name)
-        text += letter == ',' ? "%2C" : letter == '%' ? "%25" : std::string(1, letter);
-    return text;
-}
-
-std::string unescaped(const std::string& text) {
-    std::string name;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const std::string code = text.substr(i, 3);
-        const bool known = code == "%2C" || code == "%25";
-        name += known ? (code == "%2C" ? ',' : '%') : text[i];
-        i += known ? 2 : 0;
-    }
-    return name;
+bool is_unit(const Vec3& normal) {
+    return std::abs(normal.norm() - 1.0) <= kUnitLength;
 }
 
 }  // namespace
 
-std::vector<double> planes_argument(std::span<const PlannedOpening> openings) {
-    std::vector<double> numbers;
-    for (const PlannedOpening& opening : openings) {
-        const OpeningPlace& place = opening.place;
-        for (const Vec3& part : {place.tip, place.plane.point, place.plane.normal})
-            numbers.insert(numbers.end(), {part.x(), part.y(), part.z()});
-        numbers.push_back(number_of(opening.way));
-    }
-    return numbers;
+std::vector<Parameter> plane_fields() {
+    return {place_field("tip", "of the vessel's end"),
+            place_field("point", "of the plane"),
+            {.name = "normal",
+             .type = ParameterType::Point,
+             .unit = "-",
+             .help = "unit normal of the plane, out of the vessel",
+             .required = true},
+            choice_field("way",
+                         "cut: the vessel is cut and capped; keep: a good cap is kept; cap: a flat "
+                         "rim is capped as it is; rename: only its name changes",
+                         kOpeningWays)};
 }
 
-std::vector<PlannedOpening> openings_in(const std::vector<double>& planes) {
-    if (planes.size() % kNumbers != 0) return {};
+std::vector<Parameter> name_fields() {
+    return {choice_field("kind", "role of the opening",
+                         {to_string(PatchKind::Inlet), to_string(PatchKind::Outlet),
+                          to_string(PatchKind::Cut), to_string(PatchKind::Wall)}),
+            {.name = "name",
+             .type = ParameterType::Text,
+             .help = "of the opening",
+             .required = true,
+             .meaning = Meaning::Name}};
+}
+
+std::vector<Parameter> closing_fields() {
+    return {place_field("place", "centre of the rim or the cap, or tip of the branch"),
+            choice_field("way",
+                         "fill: its rim is closed as wall; wall: its cap becomes wall; remove: its "
+                         "stub is removed",
+                         kClosingWays)};
+}
+
+Records planes_argument(std::span<const PlannedOpening> openings) {
+    std::vector<Arguments> records;
+    for (const auto& [place, way, patch] : openings)
+        records.push_back({{"tip", place.tip},
+                           {"point", place.plane.point},
+                           {"normal", place.plane.normal},
+                           {"way", name_of(way, kOpeningWays)}});
+    return Records(std::move(records));
+}
+
+std::vector<PlannedOpening> openings_in(const Records& planes) {
     std::vector<PlannedOpening> openings;
-    for (std::size_t i = 0; i < planes.size(); i += kNumbers) {
-        openings.push_back(opening_at(planes, i));
-        if (std::abs(openings.back().place.plane.normal.norm() - 1.0) > kUnitLength) return {};
+    for (const Arguments& record : planes.list()) {
+        const Plane plane{record.point("point"), record.point("normal")};
+        if (!is_unit(plane.normal)) return {};
+        openings.push_back({.place = {.tip = record.point("tip"), .plane = plane},
+                            .way = way_in<OpeningWay>(record, kOpeningWays),
+                            .patch = std::nullopt});
     }
     return openings;
 }
 
-std::vector<double> closings_argument(std::span<const PlannedClosing> closings) {
-    std::vector<double> numbers;
-    for (const auto& [place, way] : closings)
-        numbers.insert(numbers.end(), {place.x(), place.y(), place.z(), static_cast<double>(way)});
-    return numbers;
+Records names_argument(std::span<const Patch> patches) {
+    std::vector<Arguments> records;
+    for (const Patch& patch : patches)
+        records.push_back({{"kind", to_string(patch.kind)}, {"name", patch.name}});
+    return Records(std::move(records));
 }
 
-std::vector<PlannedClosing> closings_in(const std::vector<double>& closings) {
-    if (closings.size() % kClosingNumbers != 0) return {};
+std::vector<Patch> patches_in(const Records& names) {
+    std::vector<Patch> patches;
+    for (const Arguments& record : names.list())
+        patches.push_back({record.text("name"), patch_kind_from(record.text("kind"))});
+    return patches;
+}
+
+Records closings_argument(std::span<const PlannedClosing> closings) {
+    std::vector<Arguments> records;
+    for (const auto& [place, way] : closings)
+        records.push_back({{"place", place}, {"way", name_of(way, kClosingWays)}});
+    return Records(std::move(records));
+}
+
+std::vector<PlannedClosing> closings_in(const Records& closings) {
     std::vector<PlannedClosing> found;
-    for (std::size_t i = 0; i < closings.size(); i += kClosingNumbers) {
-        const double way = closings[i + 3];
-        if (way != 0.0 && way != 1.0 && way != 2.0) return {};
-        found.push_back({vector_at(closings, i), static_cast<ClosingWay>(static_cast<int>(way))});
-    }
+    for (const Arguments& record : closings.list())
+        found.push_back({record.point("place"), way_in<ClosingWay>(record, kClosingWays)});
     return found;
 }
 
@@ -109,25 +141,6 @@ std::vector<EndRecord> ends_of(const OpeningPlan& plan) {
                         .opening = i});
     }
     return ends;
-}
-
-std::string names_argument(std::span<const Patch> patches) {
-    std::string names;
-    for (const Patch& patch : patches)
-        names += (names.empty() ? "" : ",") + to_string(patch.kind) + ":" + escaped(patch.name);
-    return names;
-}
-
-std::vector<Patch> patches_in(const std::string& names) {
-    std::vector<Patch> patches;
-    std::istringstream list(names);
-    for (std::string entry; std::getline(list, entry, ',');) {
-        const auto colon = entry.find(':');
-        if (colon == std::string::npos) break;
-        patches.push_back(
-            {unescaped(entry.substr(colon + 1)), patch_kind_from(entry.substr(0, colon))});
-    }
-    return patches;
 }
 
 Patch chosen_patch(const std::optional<Patch>& present, const std::optional<std::string>& kind,

@@ -1,5 +1,6 @@
 #include "workbench/window/case/edit_places.h"
 
+#include "geometry/kernel/errors.h"
 #include "workbench/operations/shared/opening_arguments.h"
 #include "workbench/operations/table.h"
 #include "workbench/window/case/pick_target.h"
@@ -8,14 +9,15 @@ namespace vesselbench {
 
 namespace {
 
-constexpr std::size_t kDabNumbers = 10;  ///< of a dab in `dabs`
-
-/// Empty if it is not given.
-std::vector<double> list_in(const Operation& operation, const Arguments& arguments,
-                            Meaning meaning) {
+/// Empty if there are none; a damaged project may hold anything in their place.
+Records records_in(const Operation& operation, const Arguments& arguments, Meaning meaning) {
     const Parameter* parameter = parameter_of(operation, meaning);
-    return parameter != nullptr && arguments.has(parameter->name) ? arguments.list(parameter->name)
-                                                                  : std::vector<double>();
+    if (parameter == nullptr || !arguments.has(parameter->name)) return {};
+    try {
+        return std::get<Records>(checked_value(*parameter, arguments.values().at(parameter->name)));
+    } catch (const UsageError&) {
+        return {};
+    }
 }
 
 /// Points that the user can pick.
@@ -35,14 +37,12 @@ Positions places_of_edit(const LogEntry& entry) {
     if (known == nullptr) return {};
     const Operation& operation = *known;
     const Arguments& arguments = entry.result ? entry.result->resolved : entry.edit.given;
-    const std::vector<double> dabs = list_in(operation, arguments, Meaning::Dabs);
-    if (dabs.size() >= kDabNumbers) {
-        const std::size_t middle = dabs.size() / kDabNumbers / 2 * kDabNumbers;
-        return {{dabs[middle], dabs[middle + 1], dabs[middle + 2]}};
-    }
+    const Records stroke = records_in(operation, arguments, Meaning::Dabs);
+    const std::vector<Arguments>& dabs = stroke.list();
+    if (!dabs.empty()) return {dabs[dabs.size() / 2].point("point")};
     Positions places;
     for (const PlannedOpening& opening :
-         openings_in(list_in(operation, arguments, Meaning::Planes)))
+         openings_in(records_in(operation, arguments, Meaning::Planes)))
         places.push_back(opening.place.plane.point);
     return places.empty() ? points_in(operation, arguments) : places;
 }

@@ -62,9 +62,9 @@ void LiveStroke::send(const StrokePlace& place) {
     if (!dab) return;
     sent_ = true;
     dabs_.push_back(runner_.submit(
-        [live = started_->live, numbers = listed(*dab)](Session&, const Progress& progress) {
+        [live = started_->live, added = listed({&*dab, 1})](Session&, const Progress& progress) {
             SceneMove move{.before = live->scene()};
-            live->add({{"dabs", numbers}}, progress);
+            live->add({{"dabs", added}}, progress);
             move.after = live->scene();
             move.changed = changed_vertices(surface_of(move.before), surface_of(move.after));
             return move;

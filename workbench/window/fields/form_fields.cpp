@@ -152,12 +152,17 @@ bool is_given(const FormField& field) {
     return !field.text.empty();
 }
 
-/// What an earlier run or a stroke fills in is no field until it has.
+bool is_decision(const FormField& field) {
+    return field.parameter->use == Use::Decision;
+}
+
+/// What runs and strokes fill in is no field.
 bool is_shown(const FieldPanel& p, const FormField& field) {
     const bool needs_view =
         pick_target(*field.parameter) || field.parameter->type == ParameterType::File;
-    return field.active && (p.sink.in_view || !needs_view) &&
-           (field.parameter->use != Use::Recorded || is_given(field));
+    return field.active && (p.sink.in_view || !needs_view) && !is_decision(field) &&
+           field.parameter->type != ParameterType::Records &&
+           (field.parameter->use != Use::IfGiven || is_given(field));
 }
 
 bool is_rare(const FormField& field) {
@@ -192,6 +197,20 @@ bool draw_more(const FieldPanel& p, const OperationForm& form) {
     return open;
 }
 
+/// Names the decisions that are given, by an earlier run or a tool, and lets them be dropped.
+void draw_decisions(const FieldPanel& p, const OperationForm& form) {
+    std::vector<std::string> names;
+    for (const FormField& field : form.fields())
+        if (is_decision(field) && field.active && is_given(field))
+            names.push_back(field.parameter->name);
+    if (names.empty()) return;
+    space(p.c.ui, 0.5F);
+    wrapped(p.c.ui, "Already decided: " + joined(names), p.c.ui.theme.muted);
+    if (button(p.c.ui, p.sink.prefix + "decide", "Decide again",
+               {.icon = icons::kRefresh, .help = "Leave this to the operation"}))
+        for (const std::string& name : names) p.sink.set(name, "");
+}
+
 }  // namespace
 
 const Parameter* draw_form_fields(PanelContext& c, const OperationForm& form,
@@ -202,6 +221,7 @@ const Parameter* draw_form_fields(PanelContext& c, const OperationForm& form,
     const Parameter* rare = draw_fields(p, form, [all](const FormField& field) {
         return is_rare(field) && (all || is_given(field));
     });
+    draw_decisions(p, form);
     return rare != nullptr ? rare : usual;
 }
 

@@ -54,6 +54,11 @@ std::vector<double> list_of(const OperationForm& form, const std::string& parame
     return value ? std::get<std::vector<double>>(*value) : std::vector<double>();
 }
 
+Records records_of(const OperationForm& form, const std::string& parameter) {
+    const auto value = value_of(form, parameter);
+    return value ? std::get<Records>(*value) : Records();
+}
+
 std::string text_of(const OperationForm& form, const std::string& parameter) {
     const FormField* field = find(form, parameter);
     return field == nullptr || !field->active || !field->error.empty() ? "" : field->text;

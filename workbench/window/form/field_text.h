@@ -39,6 +39,8 @@ struct FieldText {
 /// Empty if it is not given.
 [[nodiscard]] std::vector<double> list_of(const OperationForm& form, const std::string& parameter);
 
+[[nodiscard]] Records records_of(const OperationForm& form, const std::string& parameter);
+
 /// The typed text, or an empty one.
 [[nodiscard]] std::string text_of(const OperationForm& form, const std::string& parameter);
 

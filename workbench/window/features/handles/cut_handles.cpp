@@ -29,7 +29,7 @@ double radians(double degrees) {
 
 /// The only opening that the form gives as a plane.
 std::optional<OpeningPlace> typed_place(const OperationForm& form) {
-    const std::vector<PlannedOpening> openings = openings_in(list_of(form, "planes"));
+    const std::vector<PlannedOpening> openings = openings_in(records_of(form, "planes"));
     return openings.size() == 1 ? std::optional(openings.front().place) : std::nullopt;
 }
 
@@ -67,7 +67,7 @@ std::vector<FieldText> plane_texts(const OperationForm& form, const Cut& cut, co
     return {{"distance", ""},
             {"radii", ""},
             {"planes", to_text(Value(planes_argument({&opening, 1})))},
-            {"names", names_argument({&*opening.patch, 1})}};
+            {"names", to_text(Value(names_argument({&*opening.patch, 1})))}};
 }
 
 std::vector<FieldText> distance_texts(const Cut& cut, double distance) {

@@ -57,7 +57,7 @@ bool is_planned_stub(const PlannedEnds& planned, const EndRecord& end) {
 
 /// What `planes` says of ends that no list names.
 void take_planes(const OperationForm& form, const PlannedEnds& planned, EndChoices& choices) {
-    const std::vector<PlannedOpening> openings = openings_in(list_of(form, "planes"));
+    const std::vector<PlannedOpening> openings = openings_in(records_of(form, "planes"));
     if (openings.empty()) return;
     std::set<int> given;
     for (const PlannedOpening& opening : openings) {
@@ -77,7 +77,7 @@ void take_planes(const OperationForm& form, const PlannedEnds& planned, EndChoic
 }
 
 void take_closings(const OperationForm& form, const PlannedEnds& planned, EndChoices& choices) {
-    const std::vector<PlannedClosing> closings = closings_in(list_of(form, "closings"));
+    const std::vector<PlannedClosing> closings = closings_in(records_of(form, "closings"));
     for (const EndRecord& end : planned.plain->plan.ends) {
         if (end.number == 0 || is_planned_stub(planned, end) ||
             !closes(closings, end, ClosingWay::RemoveStub))
@@ -167,6 +167,11 @@ std::vector<PlannedClosing> all_closings(const EndChoices& choices, const Planne
     return closings;
 }
 
+/// None is not given.
+std::string text_of(const Records& records) {
+    return records.list().empty() ? "" : to_text(Value(records));
+}
+
 /// The texts that say all of the plan.
 void fix_plan(const EndChoices& choices, const PlannedEnds& planned,
               std::vector<FieldText>& texts) {
@@ -174,10 +179,9 @@ void fix_plan(const EndChoices& choices, const PlannedEnds& planned,
     const std::vector<Patch> patches = patches_of(openings, inlets_of(choices, planned));
     std::vector<PlannedOpening> planes;
     for (const auto& [number, opening] : openings) planes.push_back(opening);
-    const std::vector<double> closings = closings_argument(all_closings(choices, planned));
-    texts.push_back({"planes", to_text(Value(planes_argument(planes)))});
-    texts.push_back({"names", names_argument(patches)});
-    texts.push_back({"closings", closings.empty() ? "" : to_text(Value(closings))});
+    texts.push_back({"planes", text_of(planes_argument(planes))});
+    texts.push_back({"names", text_of(names_argument(patches))});
+    texts.push_back({"closings", text_of(closings_argument(all_closings(choices, planned)))});
 }
 
 }  // namespace

@@ -203,7 +203,7 @@ std::vector<FieldText> OpeningsModel::dragged_texts(const OperationForm& form,
     if (!number) return {};
     OperationForm moved = cut_form;
     moved.set("planes", text_in(texts, "planes"));
-    const std::vector<PlannedOpening> openings = openings_in(list_of(moved, "planes"));
+    const std::vector<PlannedOpening> openings = openings_in(records_of(moved, "planes"));
     if (!openings.empty()) return move_texts(form, *number, openings.front().place.plane);
     // Hardly tilted: perpendicular to the centerline.
     moved.set("distance", text_in(texts, "distance"));
