@@ -11,6 +11,7 @@
 #include "geometry/image/local_contrast.h"
 #include "geometry/image/occupancy.h"
 #include "geometry/image/vessel_block.h"
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/parallel.h"
 #include "geometry/kernel/wording.h"
@@ -195,10 +196,13 @@ LevelField find_levels(const Image& image, double threshold, const VesselBody& b
                        const Progress& progress) {
     const VoxelBlock block = block_around_vessel(image, threshold, body);
     if (block.voxel_count() > kMostVoxels)
-        throw AlgorithmFailure("the vessel fills a box of " +
-                               std::to_string(block.voxel_count() >> 20) +
-                               " million voxels, more than " + std::to_string(kMostVoxels >> 20) +
-                               " million, which is too much for local levels: crop the image");
+        throw DiagnosedFailure(
+            {.code = "too-large-for-local-levels",
+             .figures = {{"million_voxels",
+                          std::ldexp(static_cast<double>(block.voxel_count()), -20)},
+                         {"most_million_voxels",
+                          std::ldexp(static_cast<double>(kMostVoxels), -20)}},
+             .remedies = {{.operation = "crop"}}});
     Synthesis synthesis(part_of(image, block), threshold, body);
     synthesis.solve(progress);
     return {.levels = with_part(image, block, synthesis.levels(), static_cast<float>(threshold)),

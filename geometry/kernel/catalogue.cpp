@@ -250,6 +250,44 @@ constexpr CatalogueText kTexts[] = {
      "triangles, or decimate without weights"},
 
     // What an operation refuses.
+    {"operation-broke", "{what}; the project is unchanged: use other arguments[, or {fix} first]"},
+    {"vertex-not-finite",
+     "vertex {vertex:%.0f} has a coordinate that is not a finite number: export the surface again "
+     "from its source"},
+    {"rim-crosses-itself",
+     "the rim of an opening or a hole crosses itself, or two of its corners coincide: use {fix} "
+     "first, or choose another place"},
+    {"hole-not-manifold",
+     "the hole at {place} cannot be closed: the surface is not manifold there; use {fix} first"},
+    {"hole-cap-crosses", "the hole at {place} cannot be closed without crossing itself"},
+    {"brush-on-degenerate",
+     "the triangle at {place} has no area: use {fix} first, or brush beside it"},
+    {"self-intersections-left",
+     "{self_intersections#self-intersection} could not be removed, one near {place}: cut that "
+     "place away with {fix} or {fix2}, or rebuild the surface from its image"},
+    {"triangle-uses-vertex-twice", "a triangle uses a vertex twice near {place}: use {fix} first"},
+    {"triangles-overlap",
+     "triangles overlap or have inconsistent orientations near {place}: use {fix} first"},
+    {"edge-not-manifold", "an edge has more than two triangles near {place}: use {fix} first"},
+    {"borders-touch", "two open boundaries touch near {place}: use {fix} first"},
+    {"vertex-not-manifold",
+     "two parts of the surface touch at one vertex near {place}: use {fix} first"},
+    {"too-large-for-local-levels",
+     "the vessel fills a box of {million_voxels:%.0f} million voxels, more than "
+     "{most_million_voxels:%.0f} million, which is too much for a local threshold: use {fix} "
+     "first"},
+    {"too-many-voxels",
+     "resampling to voxels of {edge_mm} mm gives more than 2^30 voxels: use {fix} first, or "
+     "larger voxels"},
+    {"mask-outline-too-large", "the mask's outline has too many voxels: use {fix} first"},
+    {"no-such-opening", "there is no opening '{opening}' (known: {known}): choose {fix}"},
+    {"labels-without-image", "labels need a label map or a mask: use {fix} first"},
+    {"no-neighbour", "distance awareness needs a neighbour, but there is none: use {fix} first"},
+    {"no-such-neighbour",
+     "there is no neighbour '{neighbour}': use {fix} first, or choose other {fix2}"},
+    {"neighbour-without-triangles",
+     "the neighbour '{neighbour}' has no triangles: load it again with {fix}, or use {fix2}"},
+    {"no-volume-mesh", "there is no volume mesh in this variant: use {fix} first"},
     {"edge-out-of-proportion",
      "{name} = {edge_mm} mm is less than a millionth of the model; {fix} suits it"},
     {"extrusion-too-long",
@@ -294,8 +332,18 @@ constexpr CatalogueText kTexts[] = {
      "open the ends one by one ({fix})"},
     {"plane-meets-border",
      "the clipping plane at {place} meets an open border: clip farther away from the tip"},
-    {"cut-without-rim",
-     "the cut at {place} has no simple rim: repair the surface there, or clip elsewhere"},
+    {"cut-without-rim", "the cut at {place} has no simple rim: use {fix} first, or clip elsewhere"},
+    {"cut-takes-wall", "the cut at {place} would take {wall_percent:%.0f} % of the wall away"},
+    {"cut-loses-vessel",
+     "a cut there would lose {length_mm:%.1f} mm of vessel at {place}, {diameter_mm} mm wide"},
+    {"cuts-take-model",
+     "the cuts would take {volume_percent:%.0f} % of the model away: it is hardly a vessel; {fix}, "
+     "the place of an end, opens a single one"},
+    {"cap-not-flat-after-cuts", "the cap at {place} is not flat after the cuts"},
+    {"opening-would-lie-in-wall", "the opening at {place} would lie in a vessel's side"},
+    {"no-centerline",
+     "no centerline found: the lumen is thinner than the search grid, or not closed; use {fix} "
+     "first, or {fix2} to keep the vessels of interest only"},
     {"cut-in-loop",
      "the cut at {place} does not separate the branch from the rest: the vessels form a loop "
      "there; clip one of the other branches as well, or choose another place"},

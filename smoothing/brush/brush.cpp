@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "geometry/kernel/argument_checks.h"
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/finite_positions.h"
 #include "geometry/kernel/wording.h"
@@ -51,8 +52,9 @@ Anchor nearest_anchor(const Surface& surface, const SurfaceDistance& places, con
     const SurfacePoint place = places.closest_point(point);
     const Vec3 normal = area_normal(surface.points(), surface.triangles()[place.triangle]);
     if (!(normal.norm() > 0.0))
-        throw AlgorithmFailure("the triangle at " + place_text(place.point) +
-                               " has no area: repair the surface, or brush beside it");
+        throw DiagnosedFailure({.code = "brush-on-degenerate",
+                                .place = place.point,
+                                .remedies = {{.operation = "repair"}}});
     Anchor anchor{.point = place.point, .normal = normal.normalized(), .radius = otherwise};
     const auto hits = places.all_hits(place.point, -anchor.normal);
     const Triangle& here = surface.triangles()[place.triangle];

@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/disjoint_sets.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/surface_key.h"
@@ -269,11 +270,9 @@ Lines find_lines(const Surface& surface, const CenterlineParameters& parameters,
         const bool false_loops = wall.handles >= 0 && attempt.loops > wall.handles;
         if (!lost && !false_loops) break;
     }
-    if (attempt.rough.graph.branches.empty()) {
-        throw AlgorithmFailure(
-            "no centerline found: the lumen is thinner than the search grid, or not closed; repair "
-            "the surface, or crop it to the vessels of interest");
-    }
+    if (attempt.rough.graph.branches.empty())
+        throw DiagnosedFailure({.code = "no-centerline",
+                                .remedies = {{.operation = "repair"}, {.operation = "crop"}}});
     const WallSections sections(wall, 0.5 * thin);
     return {refine(attempt.rough, sections, parameters.spacing, progress.part(0.6, 1.0)),
             std::move(attempt.stubs)};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "geometry/kernel/diagnostic_text.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
@@ -157,7 +158,7 @@ bool EndOpener::keep_oblique(std::size_t e) {
 bool EndOpener::is_free(const OpeningPlace& place, std::size_t e) {
     progress_.check_cancelled();
     if (const FailedCut* failed = failure_at(draft_, e, place.plane.point)) {
-        draft_.record(e).why = failed->why;
+        draft_.record(e).why = text_of(failed->why);
         return false;
     }
     if (draft_.options().tip && draft_.is_fixed()) return true;  // as the user says

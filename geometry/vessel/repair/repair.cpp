@@ -3,8 +3,10 @@
 #include <algorithm>
 
 #include "geometry/editing/triangle_soup.h"
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/edges.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/finite_positions.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/repair/sheets.h"
@@ -23,11 +25,8 @@ constexpr int kMostClosings = 5;  ///< closing holes at a shared vertex may reve
 constexpr double kMostLost = 0.05;
 
 void check_input(const Surface& surface) {
-    if (surface.empty()) throw InvalidInput("the surface has no triangles: nothing to repair");
-    for (VertexId v = 0; v < surface.vertex_count(); ++v)
-        if (!surface.points()[v].allFinite())
-            throw InvalidInput("vertex " + std::to_string(v) +
-                               " has a coordinate that is not finite: export the surface again");
+    if (surface.empty()) throw InvalidInput("the surface has no triangles");
+    require_finite(surface.points());
 }
 
 /// Manifold, one component, stray holes closed.
@@ -56,11 +55,11 @@ void note_intersections(const TriangleSoup& mesh, const std::vector<TrianglePair
 }
 
 [[noreturn]] void fail_tangled(const TriangleSoup& mesh, const std::vector<TrianglePair>& pairs) {
-    throw AlgorithmFailure(
-        std::to_string(pairs.size()) + " self-intersections could not be removed, one near " +
-        place_text(centroid(mesh, mesh.triangles[pairs.front().first])) +
-        "; cut that place away (remove-branch, clip-opening), or rebuild the surface from its "
-        "image");
+    throw DiagnosedFailure(
+        {.code = "self-intersections-left",
+         .place = centroid(mesh, mesh.triangles[pairs.front().first]),
+         .figures = {{"self_intersections", static_cast<double>(pairs.size())}},
+         .remedies = {{.operation = "remove-branch"}, {.operation = "clip-opening"}}});
 }
 
 /// Bodies that pass through each other fall apart when the intersection is cut out: never silently.

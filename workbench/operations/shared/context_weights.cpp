@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/kernel/errors.h"
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/statistics.h"
 #include "geometry/kernel/wording.h"
 #include "workbench/case/point_json.h"
@@ -78,9 +78,9 @@ std::vector<std::string> neighbour_names(const Scene& scene, const Arguments& ar
         for (const auto& [name, surface] : scene.neighbours) names.push_back(name);
     }
     if (names.empty())
-        throw AlgorithmFailure(
-            operation +
-            ": distance awareness needs a neighbour, but there is none: use load-neighbour");
+        throw DiagnosedFailure({.code = "no-neighbour",
+                                .operation = operation,
+                                .remedies = {{.operation = "load-neighbour"}}});
     return names;
 }
 
@@ -90,12 +90,19 @@ std::vector<Surface> neighbours_of(const Scene& scene, const std::vector<std::st
     for (const std::string& name : names) {
         const auto found = scene.neighbours.find(name);
         if (found == scene.neighbours.end())
-            throw AlgorithmFailure(operation + ": there is no neighbour '" + name +
-                                   "': use load-neighbour, or name others with neighbours=");
+            throw DiagnosedFailure(
+                {.code = "no-such-neighbour",
+                 .operation = operation,
+                 .words = {{"neighbour", name}},
+                 .remedies = {{.operation = "load-neighbour", .arguments = {{"name", name}}},
+                              {.arguments = {{"neighbours", ""}}}}});
         const Surface& surface = found->second;
         if (surface.empty())
-            throw AlgorithmFailure(operation + ": the neighbour '" + name +
-                                   "' has no triangles: load it again, or use distance=none");
+            throw DiagnosedFailure({.code = "neighbour-without-triangles",
+                                    .operation = operation,
+                                    .words = {{"neighbour", name}},
+                                    .remedies = {{.operation = "load-neighbour"},
+                                                 {.arguments = {{"distance", "none"}}}}});
         neighbours.push_back(surface);
     }
     return neighbours;
