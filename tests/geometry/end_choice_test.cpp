@@ -174,7 +174,8 @@ SCENARIO("An end that cannot be cut where it should is cut nearby", "[geometry][
             CHECK_THROWS_WITH(
                 plan_openings(
                     tube, line_graph(),
-                    {.strict = true, .failed = {{chosen.tip, chosen.plane.point, "it failed"}}}),
+                    {.strict = true,
+                     .failed = {{chosen.tip, chosen.plane.point, plain_text("it failed")}}}),
                 Contains("it failed; closed="));
         }
         THEN("strictly, it is one of a closed end, too") {
@@ -186,7 +187,8 @@ SCENARIO("An end that cannot be cut where it should is cut nearby", "[geometry][
             CHECK_THROWS_WITH(
                 plan_openings(
                     unlabelled, line_graph(),
-                    {.strict = true, .failed = {{place.tip, place.plane.point, "it failed"}}}),
+                    {.strict = true,
+                     .failed = {{place.tip, place.plane.point, plain_text("it failed")}}}),
                 Contains("it failed; closed="));
         }
     }

@@ -9,6 +9,7 @@
 #include "workbench/report/log_json.h"
 #include "workbench/window/model/brush_form.h"
 #include "workbench/window/model/edit_places.h"
+#include "workbench/window/model/message.h"
 
 namespace vesselbench {
 
@@ -37,7 +38,7 @@ RailEdit rail_edit(const LogEntry& entry) {
                  .operation = edit.operation,
                  .arguments = arguments_text(edit),
                  .status = entry.status,
-                 .reason = entry.reason,
+                 .reason = entry.status == EditStatus::Stale ? reason_of(entry) : "",
                  .places = places_of_edit(entry)};
     if (entry.result) {
         row.change = effect_text(*entry.result);

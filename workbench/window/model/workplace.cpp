@@ -291,19 +291,6 @@ void Workplace::arm_required() {
             return arm(field.parameter->name);
 }
 
-void Workplace::follow(const Message& message) {
-    if (message.edit && find_entry(*document.snapshot(), *message.edit) != nullptr)
-        return choose_edit(*message.edit);
-    if (!message.remedy.empty()) follow_remedy(message.remedy);
-}
-
-void Workplace::follow_remedy(const std::string& operation) {
-    for (const LogEntry& entry : document.snapshot()->log)
-        if (operation == entry.edit.operation && entry.edit.place.step == Step::Source)
-            return choose_edit(entry.edit.edit.id);
-    choose(operation);
-}
-
 void Workplace::look_at(const Vec3& place, const Vec3& outward) {
     slices_.set_cross(place);
     looked_at_ = place;
@@ -373,6 +360,7 @@ void Workplace::drop_form() {
     document.drop_preview();
     if (form_) document.forget_failure();
     form_.reset();
+    wanted_field_.clear();
     disarm();
     end_drag();
     forget_role_question();

@@ -107,11 +107,10 @@ public:
     /// the operation is of another version.
     void choose_edit(EditId edit);
 
-    /// Shows the form that a message recommends: of the edit it is about, else of the operation.
-    void follow(const Message& message);
+    /// The field of a parameter gets the keyboard in the next frame that draws it; empty: none.
+    void want_field(const std::string& parameter) { wanted_field_ = parameter; }
 
-    /// Opens the edit that loads the source if the operation is its, else a new form.
-    void follow_remedy(const std::string& operation);
+    [[nodiscard]] const std::string& wanted_field() const { return wanted_field_; }
 
     /// Moves the slices and the view to a place [mm].
     /// \param outward unit normal of the surface there, from whose side it is seen; zero: unknown
@@ -391,7 +390,7 @@ private:
     int seen_opened_ = 0;
     FileQuestion question_ = FileQuestion::None;
     std::string asked_parameter_;
-    std::string armed_;
+    std::string armed_, wanted_field_;
     Task<SurfacePlaces> search_;
     SurfacePlaces places_;
     ViewData view_data_;

@@ -7,6 +7,7 @@
 
 #include "geometry/kernel/wording.h"
 #include "workbench/window/model/readable.h"
+#include "workbench/window/model/remedies.h"
 #include "workbench/window/panels/comparison_banner.h"
 #include "workbench/window/panels/message_panel.h"
 #include "workbench/window/panels/panel_frame.h"
@@ -100,12 +101,12 @@ bool is_about_form(const PanelContext& c) {
 void draw_failure(PanelContext& c, ScreenRect& place) {
     const Message failure = *c.place.document.failure();
     const Banner banner{icon_of(failure.kind), c.ui.theme.danger, failure.text,
-                        failure.remedy.empty() ? "" : "Go to " + readable(failure.remedy), true};
+                        button_of(c.place.document, failure), true};
     place.height = height_of(c.ui, banner, place.width);
     const Answer answer = draw_banner(c, "failure", banner, place);
     if (answer == Answer::None) return;
     c.place.document.forget_failure();
-    if (answer == Answer::Action) c.place.follow(failure);
+    if (answer == Answer::Action) follow(c.place, failure);
 }
 
 void draw_pending(PanelContext& c, ScreenRect& left) {
@@ -164,10 +165,10 @@ void draw_stale(PanelContext& c, ScreenRect& left) {
     const LogEntry* stale = stale_edit(c);
     if (stale == nullptr) return;
     const EditId edit = stale->edit.edit.id;
-    const Banner banner{
-        icons::kStale, c.ui.theme.danger,
-        readable(stale->edit.operation) + " no longer applies and was skipped: " + stale->reason,
-        "Change it"};
+    const Banner banner{icons::kStale, c.ui.theme.danger,
+                        readable(stale->edit.operation) +
+                            " no longer applies and was skipped: " + reason_of(*stale),
+                        "Change it"};
     if (draw_top(c, "stale", banner, left) == Answer::Action) c.place.choose_edit(edit);
 }
 

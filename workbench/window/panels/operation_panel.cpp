@@ -1,6 +1,7 @@
 #include "workbench/window/panels/operation_panel.h"
 
 #include <algorithm>
+#include <optional>
 
 #include <imgui.h>
 
@@ -9,6 +10,7 @@
 #include "workbench/window/model/brush_form.h"
 #include "workbench/window/model/field_text.h"
 #include "workbench/window/model/readable.h"
+#include "workbench/window/model/remedies.h"
 #include "workbench/window/panels/extraction_panel.h"
 #include "workbench/window/panels/form_fields.h"
 #include "workbench/window/panels/live_panel.h"
@@ -152,7 +154,7 @@ void draw_advice(PanelContext& c, const OperationForm& form, const Parameter* pa
     if (failure) return wrapped(c.ui, failure->text, c.ui.theme.danger);
     if (const LogEntry* stale = stale_edit(c))
         return wrapped(c.ui,
-                       "No longer applies: " + stale->reason +
+                       "No longer applies: " + reason_of(*stale) +
                            "\nChange its arguments, pick its place again, or remove it.",
                        c.ui.theme.danger);
     if (missing) return wrapped(c.ui, need_of(form), c.ui.theme.warning);
@@ -171,20 +173,32 @@ void draw_advice(PanelContext& c, const OperationForm& form, const Parameter* pa
             c.ui.theme.muted);
 }
 
-/// The operation that the text of a failure, or of a stale edit's reason, recommends.
-std::string remedy_of(const PanelContext& c) {
-    const auto& failure = c.place.document.failure();
-    if (failure) return failure->remedy;
-    const LogEntry* stale = stale_edit(c);
-    return stale == nullptr ? "" : remedy_in(stale->reason, stale->edit.operation);
+/// What the form's failure is, or why its edit is stale; none: nothing is wrong.
+std::optional<Message> problem_of(const PanelContext& c) {
+    if (const auto& failure = c.place.document.failure()) return failure;
+    if (const LogEntry* stale = stale_edit(c)) return stale_message(*stale);
+    return std::nullopt;
 }
 
-void draw_remedy(PanelContext& c) {
-    const std::string remedy = remedy_of(c);
-    if (remedy.empty()) return;
-    if (button(c.ui, "operation.remedy", "Go to " + readable(remedy),
-               {.icon = icons::kRight, .width = -1}))
-        c.place.follow_remedy(remedy);
+/// The footer has room for so many.
+constexpr std::size_t kMostRemedies = 2;
+
+std::vector<Remedy> shown_remedies(const PanelContext& c, const std::optional<Message>& problem) {
+    if (!problem) return {};
+    std::vector<Remedy> remedies = remedies_of(c.place.document, *problem);
+    remedies.resize(std::min(remedies.size(), kMostRemedies));
+    return remedies;
+}
+
+void draw_remedies(PanelContext& c) {
+    const std::optional<Message> problem = problem_of(c);
+    const std::vector<Remedy> remedies = shown_remedies(c, problem);
+    for (std::size_t i = 0; i < remedies.size(); ++i) {
+        const std::string name = "operation.remedy" + (i == 0 ? "" : "." + std::to_string(i));
+        if (button(c.ui, name, remedy_label(problem->operation, remedies[i]),
+                   {.icon = icons::kRight, .primary = i == 0, .width = -1}))
+            return follow(c.place, *problem, remedies[i]);
+    }
 }
 
 void draw_actions(PanelContext& c, const OperationForm& form) {
@@ -248,7 +262,8 @@ float advice_height(const PanelContext& c) {
 /// Height of the part below the fields.
 float footer_height(const PanelContext& c, const OperationForm& form) {
     const float line = ImGui::GetFrameHeightWithSpacing();
-    const float more = (form.edit() ? line : 0) + (remedy_of(c).empty() ? 0 : line);
+    const std::size_t remedies = shown_remedies(c, problem_of(c)).size();
+    const float more = (form.edit() ? line : 0) + line * static_cast<float>(remedies);
     return advice_height(c) + line + more + c.ui.grid(1);
 }
 
@@ -258,7 +273,7 @@ void draw_footer(PanelContext& c, const OperationForm& form, const Parameter* pa
     ImGui::BeginChild("advice", {0, advice_height(c) - c.ui.grid(1)});
     draw_advice(c, form, parameter);
     ImGui::EndChild();
-    draw_remedy(c);
+    draw_remedies(c);
     if (!c.place.form()) return;
     if (edit) draw_note(c, *edit);
     if (edit) draw_removal(c, *edit);
@@ -294,6 +309,7 @@ const Parameter* draw_contents(PanelContext& c, OperationForm& form) {
 
 void draw_tabs(PanelContext& c) {
     if (!c.place.has_live_form()) return;
+    if (!c.place.wanted_field().empty()) c.shown.form = FormTab::Fields;
     draw_tab(c, "form.fields", "Parameters", FormTab::Fields);
     ImGui::SameLine();
     const bool follows = c.place.live().has_form() || c.place.extraction().has_form();
