@@ -251,7 +251,7 @@ Field with_levels(const Field& field, const ExtractionParameters& parameters, Ex
         found = find_levels(field.image, field.iso, body_of(parameters), progress);
     } catch (const AlgorithmFailure& failure) {
         result.why_no_levels = failure.what();
-        result.reasons.push_back("one threshold, no local levels: " + result.why_no_levels);
+        result.reasons.push_back("one threshold instead of a local one: " + result.why_no_levels);
         return field;
     }
     WallLevels levels = found->wall;
@@ -261,8 +261,8 @@ Field with_levels(const Field& field, const ExtractionParameters& parameters, Ex
         levels.highest = -levels.highest;
     }
     result.levels = levels;
-    result.reasons.push_back("levels at the wall from " + formatted(levels.lowest) + " to " +
-                             formatted(levels.highest) +
+    result.reasons.push_back("local thresholds at the wall from " + formatted(levels.lowest) +
+                             " to " + formatted(levels.highest) +
                              ": what the image's blur leaves of the vessel's contrast there");
     std::vector<float> voxels = *field.image.voxels;
     for (std::size_t v = 0; v < voxels.size(); ++v)

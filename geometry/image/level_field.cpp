@@ -63,16 +63,17 @@ public:
         double change = 1.0;
         for (int round = 0; round < kMostRounds && change > kSettled; ++round) {
             progress.report(static_cast<double>(round) / kMostRounds,
-                            "finding the levels at the wall");
+                            "finding the local threshold");
             show_vessel();
             if (round == 0) first_volume_ = volume_;
             shown_.background = local_background(image_, shown_);
             fit_ = fit_contrast(image_, shown_, fit_);
             change = set_levels(local_contrast(image_, shown_, fit_.contrast));
             if (volume_ > kMostGrowth * first_volume_)
-                throw AlgorithmFailure("the levels run into what is around the vessel");
+                throw AlgorithmFailure(
+                    "the local threshold reaches into the vessel's surroundings");
         }
-        if (change > kUnsettled) throw AlgorithmFailure("the levels at the wall do not settle");
+        if (change > kUnsettled) throw AlgorithmFailure("the local threshold does not converge");
         if (fit_.residual > kMostResidual)
             throw AlgorithmFailure("the image is not like a vessel of one contrast: " +
                                    formatted(100.0 * fit_.residual, "%.0f %%") +

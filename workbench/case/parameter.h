@@ -71,6 +71,9 @@ struct Parameter {
 [[nodiscard]] bool holds(const Condition& condition, const Parameter& parameter,
                          const std::string& text);
 
+/// What its value may be: "a number (0 to 1 mm)".
+[[nodiscard]] std::string allowed_text(const Parameter& parameter);
+
 /// The value in the parameter's type: an integer is accepted as a real number, three numbers as a
 /// point, a text is parsed.
 /// \throw UsageError that names the parameter, the value and what is allowed, if the value is of

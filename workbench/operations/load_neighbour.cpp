@@ -34,7 +34,10 @@ Surface surface_of_labels(const Scene& scene, const Arguments& arguments,
 
 Outcome load(const Scene& scene, const Arguments& arguments, Progress& progress) {
     if (arguments.has("file") == arguments.has("labels"))
-        throw UsageError("load-neighbour: give either file= or labels=");
+        throw DiagnosedUsage(
+            {.code = "neighbour-without-source",
+             .operation = "load-neighbour",
+             .remedies = {{.arguments = {{"file", ""}}}, {.arguments = {{"labels", ""}}}}});
     const std::string& name = arguments.text("name");
     Outcome outcome{.scene = scene, .resolved = arguments};
     Surface neighbour = arguments.has("file") ? read_surface_argument(arguments, outcome).surface
@@ -70,7 +73,7 @@ Operation load_neighbour_operation() {
                            {.name = "mask_surface",
                             .type = Choice,
                             .default_value = "smooth",
-                            .help = "surface of labels, as in extract-surface",
+                            .help = "surface of labels, as when one is extracted from an image",
                             .choices = {"smooth", "midway"},
                             .only_with = Condition{"labels"}},
                            units_parameter()},

@@ -300,7 +300,7 @@ std::size_t bytes_of(const Lines& lines) {
 std::shared_ptr<const Lines> lines_of(const Surface& surface,
                                       const CenterlineParameters& parameters,
                                       const Progress& progress, DerivedCache& cache) {
-    if (surface.empty()) throw InvalidInput("the surface is empty; load or extract one first");
+    if (surface.empty()) throw InvalidInput("the surface is empty");
     return cache.find_or_make<Lines>(
         "centerlines", content_key({surface_key(surface, cache), key_of(parameters)}),
         [&] { return find_lines(surface, parameters, progress); }, &bytes_of, progress);

@@ -170,7 +170,7 @@ VesselWall vessel_wall_of(const Surface& surface, const Progress& progress) {
     if (!(wall.area > 0.0)) {
         throw InvalidInput("the surface has no wall; all of its triangles are flat closures");
     }
-    progress.report(0.0, "looking at the wall");
+    progress.report(0.0, "analysing the wall");
     judge_connectivity(wall, progress);
     progress.check_cancelled();
     wall.distance = std::make_shared<const SurfaceDistance>(distance_to(wall.points, wall.closed));

@@ -130,7 +130,7 @@ bool EndOpener::cut_elsewhere(std::size_t e) {
     };
     const std::string why = draft_.record(e).why;
     if (const auto place = nearest_opening_place(surface, graph, *end.tip, near))
-        return make_cut(e, *place, "cut at the nearest place that can be: " + why);
+        return make_cut(e, *place, "cut at the nearest possible place: " + why);
     const auto blind = blind_branch(graph, *end.tip);
     if (blind && blind->length < kLongestAcross * end.diameter)
         if (const auto place = place_across_furcation(surface, graph, *end.tip, free))

@@ -299,7 +299,7 @@ void check_flow(const OpeningPlan& plan, const Surface& surface, const Centerlin
     if (problem.code.empty()) return;
     Advice advice{"accept_doubts", "true", "goes on with the likelier choice"};
     if (!problem.doubts) {
-        progress.report(0.0, "looking for a remedy");
+        progress.report(0.0, "finding a remedy");
         advice =
             WayOn(surface, graph, options, problem, progress.silent()).advice(plan.openings.size());
     }

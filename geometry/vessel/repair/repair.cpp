@@ -99,7 +99,7 @@ void check_result(const TriangleSoup& mesh) {
                             ? defects.inconsistent_edges[0][0]
                             : mesh.triangles[defects.degenerate[0]][0];
     throw AlgorithmFailure("a place near " + place_text(mesh.points[at]) +
-                           " stays non-manifold: cut it away, or rebuild the surface from its "
+                           " is still non-manifold: cut it away, or rebuild the surface from its "
                            "image");
 }
 
@@ -115,7 +115,7 @@ Repaired repair(const Surface& surface, const RepairParameters& parameters,
     remove_degenerate_and_duplicate(mesh, report);
     if (mesh.triangles.empty())
         throw InvalidInput("all triangles are degenerate: there is no surface");
-    progress.report(0.2, "mending connectivity");
+    progress.report(0.2, "repairing connectivity");
     restore_manifold(mesh, parameters, report);
     if (mesh.triangles.empty())
         throw InvalidInput("all triangles are degenerate: there is no surface");

@@ -137,7 +137,7 @@ void name_by_numbers(const Surface& surface, const Arguments& arguments,
             if (end == plan.ends.end())
                 throw UsageError("clip-opening: " + std::string(parameter.numbers) +
                                  ": there is no end " + formatted(number) +
-                                 "; vesselbench ends lists them");
+                                 ": the list of ends has their numbers");
             (options.*parameter.into).push_back(end->place);
         }
     }

@@ -70,7 +70,7 @@ std::vector<Parameter> choice_parameters() {
             {.name = "inlet_ends",
              .type = List,
              .unit = "-",
-             .help = "the inlets by their numbers, as vesselbench ends lists them",
+             .help = "the inlets by their numbers, as the list of ends has them",
              .use = Use::Rare},
             {.name = "open_ends",
              .type = List,

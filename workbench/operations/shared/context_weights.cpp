@@ -33,10 +33,10 @@ StaircaseChoice decided_staircases(const Scene& scene, const std::string& operat
                                    ContextFinder& finder, Arguments& arguments) {
     auto choice = staircase_choice(scene, finder, arguments);
     if (!choice)
-        throw AlgorithmFailure(
-            operation +
-            ": the direction of the image stack is uncertain: the surface has no image and too few "
-            "staircases; give stack_axis=x,y,z, or staircase=false");
+        throw DiagnosedFailure({.code = "stack-axis-uncertain",
+                                .operation = operation,
+                                .remedies = {{.arguments = {{"stack_axis", ""}}},
+                                             {.arguments = {{"staircase", "false"}}}}});
     if (choice->axes_from != "argument") arguments.set("stack_axis", choice->axis_value());
     arguments.set("tau_theta", choice->tau_theta);
     arguments.set("tau_max", choice->tau_max);
@@ -234,7 +234,7 @@ std::vector<Parameter> distance_parameter_table(const WeighedAction& action) {
         {.name = "distance",
          .type = Choice,
          .default_value = std::string("none"),
-         .help = "preserve the surface near the structures of load-neighbour; the nearest vertex "
+         .help = "preserve the surface near the neighbouring structures; the nearest vertex "
                  "gets no " +
                  action.doing +
                  ", the farthest vertex all of it; in between it grows linearly (linear), linearly "
@@ -271,9 +271,8 @@ std::vector<Parameter> distance_parameter_table(const WeighedAction& action) {
          .only_with = Condition{"distance", {"exponential"}}},
         {.name = "painted",
          .type = Text,
-         .help =
-             "name of a vertex attribute in [0, 1], as painted by brush-weight: vertices of 0 " +
-             action.kept + ", 1 " + action.painted_one,
+         .help = "name of a vertex attribute in [0, 1], as a brush paints it: vertices of 0 " +
+                 action.kept + ", 1 " + action.painted_one,
          .meaning = Meaning::Name}};
 }
 

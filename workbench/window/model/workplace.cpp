@@ -231,8 +231,8 @@ void Workplace::end_spots() {
 void Workplace::end_measures() {
     const std::string lost = measures.close();
     if (!lost.empty())
-        document.tell(
-            make_message(MessageKind::Error, "the last change of the measures is lost: " + lost));
+        document.tell(make_message(MessageKind::Error,
+                                   "the last change of the measurements is lost: " + lost));
 }
 
 void Workplace::close() {

@@ -147,7 +147,7 @@ void draw_made_before(PanelContext& c, ScreenRect& left) {
     const Banner banner{icons::kInformation, c.ui.theme.accent,
                         "This project was made from " + document.made_before()->name() +
                             " before; it is opened as you left it",
-                        "Begin anew", true};
+                        "Start a new project", true};
     const Answer answer = draw_top(c, "made_before", banner, left);
     if (answer == Answer::Action) return document.begin_anew();
     if (answer == Answer::Close) document.keep_made_before();

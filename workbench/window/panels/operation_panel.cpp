@@ -112,13 +112,13 @@ void draw_title(PanelContext& c, const OperationForm& form) {
 }
 
 std::string help_of(const Parameter& parameter) {
-    std::string range = range_text(parameter);
-    std::ranges::replace(range, '|', ' ');
-    const std::string unit = readable_unit(parameter.unit);
     std::string help = readable(parameter.name) + ": " + parameter.help + ".";
-    if (parameter.type != ParameterType::Choice && parameter.type != ParameterType::Flag)
-        help += "  Allowed: " + range + (unit.empty() ? "" : " " + unit) + ".";
-    return help + "  Default: " + default_text(parameter) + ".";
+    const std::string preset = default_text(parameter);
+    if (parameter.type == ParameterType::Flag)
+        return help + "  Default: " + (preset == "true" ? "on" : "off") + ".";
+    if (parameter.type != ParameterType::Choice)
+        help += "  " + readable_sentence(allowed_text(parameter)) + ".";
+    return help + "  Default: " + preset + ".";
 }
 
 /// The form's edit, if it no longer applies.
@@ -155,7 +155,7 @@ void draw_advice(PanelContext& c, const OperationForm& form, const Parameter* pa
     if (const LogEntry* stale = stale_edit(c))
         return wrapped(c.ui,
                        "No longer applies: " + reason_of(*stale) +
-                           "\nChange its arguments, pick its place again, or remove it.",
+                           "\nChange its parameters, pick its place again, or remove it.",
                        c.ui.theme.danger);
     if (missing) return wrapped(c.ui, need_of(form), c.ui.theme.warning);
     if (shows_live(c)) return wrapped(c.ui, live_advice(c), c.ui.theme.muted);
@@ -216,7 +216,7 @@ void draw_actions(PanelContext& c, const OperationForm& form) {
                {.primary = true,
                 .enabled = place.can_apply(),
                 .width = width,
-                .help = change ? "Run the edit with these arguments; later edits become pending"
+                .help = change ? "Run the edit with these values; later edits become pending"
                                : "Run and add it as an edit; can be undone"}))
         place.apply();
     ImGui::SameLine(0, c.ui.grid(1));
