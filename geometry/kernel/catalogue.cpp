@@ -467,7 +467,8 @@ constexpr CatalogueText kTexts[] = {
      "unit is a change of the edit that read it:\n{fix}, then --resume]"},
     {"edit-no-longer-applies",
      "edit {number} {name} no longer applies after an earlier edit was changed: {why}; change its "
-     "arguments, remove it, or\n{fix}, then --resume: it chooses again what it chose by itself"},
+     "arguments, remove it, or\n{fix}, then --resume: it chooses again what it chose "
+     "automatically"},
     {"set-too-late",
      "--set '{setting}': {name} has been made already[; to change it:\n{fix}, then --resume]"},
     {"opening-in-wall",
