@@ -225,10 +225,11 @@ void check_share(const Field& field, const Extraction& result) {
         low = -*most;
         high = -*least;
     }
-    throw AlgorithmFailure(std::string(inside == 0 ? "no voxel" : "every voxel") +
-                           " is inside at threshold " + text_of(result.threshold) +
-                           " (values from " + text_of(low) + " to " + text_of(high) +
-                           "); give another threshold");
+    throw DiagnosedFailure({.code = inside == 0 ? "no-voxel-inside" : "every-voxel-inside",
+                            .words = {{"threshold", text_of(result.threshold)},
+                                      {"least", text_of(low)},
+                                      {"most", text_of(high)}},
+                            .remedies = {{.arguments = {{"threshold", ""}}}}});
 }
 
 VesselBody body_of(const ExtractionParameters& parameters) {

@@ -254,6 +254,45 @@ constexpr CatalogueText kTexts[] = {
      "triangles, or decimate without weights"},
 
     // What an operation refuses.
+    {"threshold-in-noise",
+     "the surface meets the image's border at {places#place}: the threshold is within the noise; "
+     "choose another {fix}"},
+    {"no-closed-body", "no closed body found: choose another {fix}"},
+    {"seed-in-no-body",
+     "the seed, {place}, is in no body: the nearest one is {distance_mm} mm away; choose a {fix} "
+     "inside the vessel"},
+    {"no-voxel-inside",
+     "no voxel is inside at threshold {threshold} (values from {least} to {most}): choose another "
+     "{fix}"},
+    {"every-voxel-inside",
+     "every voxel is inside at threshold {threshold} (values from {least} to {most}): choose "
+     "another {fix}"},
+    {"parts-pass-through-each-other",
+     "parts of the surface pass through each other near {place}; removing that would lose "
+     "{area_percent:%.0f} % of the area: separate or unite these parts first, or rebuild the "
+     "surface from its image"},
+    {"still-not-manifold",
+     "the surface is still not manifold near {place}: cut that place away with {fix} or {fix2}, or "
+     "rebuild the surface from its image"},
+    {"surface-one-sided",
+     "the surface has no inner and outer side (like a Moebius strip): orientations contradict each "
+     "other at {triangles#triangle}, one near {place}; cut the band there or export the surface "
+     "again"},
+    {"surface-not-connected",
+     "the triangles form {pieces#unconnected piece}, the largest of which has only "
+     "{area_percent:%.0f} % of the area: this is not a connected surface; export it again with "
+     "shared points"},
+    {"dab-without-surface",
+     "no surface within {radius_mm} mm of {place} has a normal within 60 degrees of the dab's: the "
+     "surface there has changed; brush again"},
+    {"remeshing-too-fine",
+     "remeshing would make more than {most_millions:%.0f} million triangles: use a larger {fix}"},
+    {"too-many-features",
+     "the surface bends by more than the feature angle around {regions#region}: use a larger {fix} "
+     "or {fix2}"},
+    {"too-many-subdivisions",
+     "subdividing {triangles#triangle} {iterations#time} makes more than {most_millions:%.0f} "
+     "million: use fewer {fix}"},
     {"operation-broke", "{what}; the project is unchanged: use other arguments[, or {fix} first]"},
     {"vertex-not-finite",
      "vertex {vertex:%.0f} has a coordinate that is not a finite number: export the surface again "
@@ -355,6 +394,24 @@ constexpr CatalogueText kTexts[] = {
      "the place of an end, opens a single one"},
     {"cap-not-flat-after-cuts", "the cap at {place} is not flat after the cuts"},
     {"opening-would-lie-in-wall", "the opening at {place} would lie in a vessel's side"},
+    {"no-lumen",
+     "the surface encloses no lumen: check its unit, or correct its orientation with {fix}"},
+    {"surface-is-sheet",
+     "there is no vessel in it: the surface is a sheet, {width_mm} mm wide and {thickness_mm} mm "
+     "thick on average, and encloses no lumen"},
+    {"vessel-within-noise",
+     "there is no vessel in it that can be distinguished from noise: the surface has "
+     "{loops#loop}; choose another threshold ({fix}), or add a mask ({fix2})"},
+    {"no-branch-at-tip", "no branch has its tip near {place}"},
+    {"branch-without-parent",
+     "the vessel with its tip at {place} has no parent vessel: nothing would remain"},
+    {"no-closed-section",
+     "the branch with its tip at {place} has no closed section: give {fix} from its tip"},
+    {"distance-beyond-branch",
+     "the branch with its tip at {place} is only {length_mm} mm long: use a smaller {fix}"},
+    {"no-section-at-distance",
+     "the branch with its tip at {place} has no closed section {distance_mm} mm from its tip: "
+     "choose another {fix}"},
     {"no-centerline",
      "no centerline found: the lumen is thinner than the search grid, or not closed; use {fix} "
      "first, or {fix2} to keep the vessels of interest only"},

@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "geometry/kernel/argument_checks.h"
 #include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/finite_positions.h"
-#include "geometry/kernel/wording.h"
 
 namespace vesselbench {
 
@@ -113,11 +111,9 @@ SurfacePoint BrushStroke::resolve(const Anchor& anchor) const {
     const double reach = std::min(best.distance, anchor.radius) + farthest_;
     for (const TriangleId t : places_->triangles_within(anchor.point, reach)) try_triangle(t);
     if (best.distance <= anchor.radius) return best;
-    std::ostringstream text;
-    text << "no surface within " << anchor.radius << " mm of " << place_text(anchor.point)
-         << " whose normal is within 60 degrees of the dab's: the surface there has changed; brush "
-            "again";
-    throw AlgorithmFailure(text.str());
+    throw DiagnosedFailure({.code = "dab-without-surface",
+                            .place = anchor.point,
+                            .figures = {{"radius_mm", anchor.radius}}});
 }
 
 std::vector<VertexId> BrushStroke::add(const Dab& dab) {

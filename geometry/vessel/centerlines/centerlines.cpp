@@ -258,7 +258,7 @@ Lines find_lines(const Surface& surface, const CenterlineParameters& parameters,
     check(parameters);
     const VesselWall wall = vessel_wall_of(surface, progress);
     if (!(wall.volume > 0.0)) {
-        throw InvalidInput("the surface encloses no lumen: check units and orientation");
+        throw DiagnosedInput({.code = "no-lumen", .remedies = {{.operation = "repair"}}});
     }
     const double thin = thin_radius(wall, kThinFraction);
     double spacing = first_spacing(wall, thin);

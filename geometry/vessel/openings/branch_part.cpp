@@ -4,8 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/kernel/errors.h"
-#include "geometry/kernel/wording.h"
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
 #include "geometry/vessel/centerlines/lines_to_tip.h"
 #include "geometry/vessel/openings/remove_branch.h"
@@ -47,7 +46,7 @@ NamedBranch branch_at_tip(const Surface& surface, const Vec3& point, const Progr
     auto graph = lines_to_tip(surface, point, kOwnLineBeyond, progress);
     const auto tip = nearest_tip(*graph, point);
     if (!tip || (graph->nodes[*tip].position - point).norm() > kTipReach * tip_radius(*graph, *tip))
-        throw AlgorithmFailure("no branch has its tip near " + place_text(point));
+        throw DiagnosedFailure({.code = "no-branch-at-tip", .place = point});
     return {std::move(graph), *tip};
 }
 

@@ -8,7 +8,6 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/finite_positions.h"
 #include "geometry/kernel/measure.h"
-#include "geometry/kernel/wording.h"
 #include "geometry/vessel/repair/sheets.h"
 #include "geometry/vessel/repair/slivers.h"
 #include "geometry/vessel/repair/soup.h"
@@ -66,11 +65,9 @@ void note_intersections(const TriangleSoup& mesh, const std::vector<TrianglePair
 void check_nothing_lost(const TriangleSoup& mesh, double area_before, const Vec3& place) {
     const double lost = 1.0 - area_of(mesh) / area_before;
     if (lost > kMostLost)
-        throw AlgorithmFailure(
-            "parts of the surface pass through each other near " + place_text(place) +
-            "; removing that would lose " + std::to_string(static_cast<int>(100.0 * lost)) +
-            " % of the area: separate or unite these parts first, or rebuild the surface from its "
-            "image");
+        throw DiagnosedFailure({.code = "parts-pass-through-each-other",
+                                .place = place,
+                                .figures = {{"area_percent", 100.0 * lost}}});
 }
 
 void untangle_all(TriangleSoup& mesh, const RepairParameters& parameters, const Progress& progress,
@@ -98,9 +95,10 @@ void check_result(const TriangleSoup& mesh) {
                         : !defects.inconsistent_edges.empty()
                             ? defects.inconsistent_edges[0][0]
                             : mesh.triangles[defects.degenerate[0]][0];
-    throw AlgorithmFailure("a place near " + place_text(mesh.points[at]) +
-                           " is still non-manifold: cut it away, or rebuild the surface from its "
-                           "image");
+    throw DiagnosedFailure(
+        {.code = "still-not-manifold",
+         .place = mesh.points[at],
+         .remedies = {{.operation = "remove-branch"}, {.operation = "clip-opening"}}});
 }
 
 }  // namespace
