@@ -355,7 +355,7 @@ constexpr CatalogueText kTexts[] = {
      "({fix})"},
     {"no-end-to-close", "no vessel end is near {place}, where one is to stay closed"},
     {"no-end-near",
-     "no vessel end is near {given}, where {meant} is to be; the nearest one is at {place}"},
+     "no vessel end is near {given}, where {meant} is to be; the nearest end is at {place}"},
     {"one-end-twice", "two inlets mean the same end, at {place}"},
     {"cap-not-flat", "the cap '{cap}' is not flat: clip it first with {fix}"},
     {"cap-not-a-disc",

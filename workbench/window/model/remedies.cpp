@@ -64,8 +64,9 @@ std::string change_of(const Parameter& parameter, const std::string& value) {
 /// The edit of an operation that a case has once, as the one that loads its source; none: edits of
 /// it can be added.
 std::optional<EditId> only_edit(const Document& document, const Operation& operation) {
-    const bool once = operation.recipe.loads || &operation == &extracting_operation();
-    if (!once) return std::nullopt;
+    const auto& loads = operation.recipe.loads;
+    const bool loads_source = loads && *loads != InputKind::Neighbour;
+    if (!loads_source && &operation != &extracting_operation()) return std::nullopt;
     for (const LogEntry& entry : document.snapshot()->log)
         if (entry.edit.operation == operation.name && entry.edit.place.step == Step::Source)
             return entry.edit.edit.id;
