@@ -88,6 +88,23 @@ SCENARIO("A refused form gets the value that its remedy names", "[window][remedi
     CHECK(desk.document.snapshot()->log.size() == 1);  // the user applies it
 }
 
+SCENARIO("A refused change of an edit is mended in the edit's form", "[window][remedies]") {
+    Desk desk(closed_tube(2.0, 30.0, 40, 90));
+    desk.apply("remesh", {{"mode", std::string("uniform")}, {"edge", 0.5}}, Step::Remeshing);
+    REQUIRE_FALSE(desk.document.failure());
+    desk.place.choose_edit(2);
+    desk.place.set_field("edge", "0.001");
+    REQUIRE(update_until(desk.place, [&] { return desk.place.can_apply(); }));
+    desk.place.apply();
+    desk.settle();
+    REQUIRE(desk.document.failure());
+    const Message refused = *desk.document.failure();
+    REQUIRE(remedies_of(desk.document, refused).size() == 1);
+    follow(desk.place, refused);
+    CHECK(desk.form().edit() == 2);
+    CHECK(desk.form().field("edge").text == refused.remedies[0].arguments.at("edge"));
+}
+
 SCENARIO("A remedy that is another operation opens its form", "[window][remedies]") {
     Desk desk(open_tube(2.0, 30.0, 40, 90));
     desk.apply("tetrahedralize", {}, Step::Product);

@@ -72,6 +72,12 @@ RequestLabel history_label(const std::string& what) {
     return {.what = what, .kind = RequestKind::History};
 }
 
+/// Empty: the state has no such edit.
+std::string operation_of(const Snapshot& snapshot, EditId edit) {
+    const LogEntry* entry = find_entry(snapshot, edit);
+    return entry == nullptr ? "" : entry->edit.operation;
+}
+
 RequestLabel edit_label(const std::string& operation) {
     return {.what = readable(operation), .kind = RequestKind::Edit, .operation = operation};
 }
@@ -351,7 +357,8 @@ void Document::apply(const std::string& operation, Arguments given, Step step) {
 void Document::change(EditId edit, Arguments given) {
     if (!begin_request(RequestKind::Edit)) return;
     watch(runner_->change_edit(edit, std::move(given)),
-          {.what = "Changing edit " + std::to_string(edit)},
+          {.what = "Changing edit " + std::to_string(edit),
+           .operation = operation_of(*snapshot_, edit)},
           [this](const LogEntry& entry) { enter(entry); });
 }
 
@@ -466,7 +473,7 @@ void Document::preview(const std::string& operation, Arguments given, Step step)
 void Document::preview_change(EditId edit, Arguments given) {
     if (!begin_request(RequestKind::Preview)) return;
     watch(runner_->preview_change(edit, std::move(given)),
-          preview_label("edit " + std::to_string(edit), {}),
+          preview_label("edit " + std::to_string(edit), operation_of(*snapshot_, edit)),
           [this](const Preview& preview) { show(preview); });
 }
 
