@@ -12,6 +12,7 @@
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 
 namespace vesselbench {
@@ -148,10 +149,8 @@ FlatCap fill_flat(const Positions& rim, const Plane& plane, double edge) {
         high = high.cwiseMax(flat.back());
     }
     if (!is_simple(flat))
-        throw AlgorithmFailure(
-            "the rim of an opening or a hole crosses itself, or two of its corners coincide: "
-            "repair "
-            "the surface there, or choose another place");
+        throw DiagnosedFailure(
+            {.code = "rim-crosses-itself", .remedies = {{.operation = "repair"}}});
     const Point2 extent = high - low;
     edge = std::max(edge, std::sqrt(extent.prod() / static_cast<double>(kMostInnerPoints)));
     Points2 inner = lattice(flat, edge);

@@ -1,11 +1,10 @@
 #include "geometry/editing/hole_filling.h"
 
 #include <algorithm>
-#include <string>
 
 #include "geometry/editing/hole_patch.h"
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
-#include "geometry/kernel/wording.h"
 
 namespace vesselbench {
 
@@ -38,12 +37,6 @@ VertexId nearest(const EditableSurface& surface, std::span<const VertexId> loop,
     });
 }
 
-[[noreturn]] void fail(const EditableSurface& surface, std::span<const VertexId> loop,
-                       const std::string& why) {
-    throw AlgorithmFailure("the hole at " + place_text(loop_centre(surface.points_of(loop))) + " " +
-                           why);
-}
-
 }  // namespace
 
 std::size_t fill_rim(EditableSurface& surface, std::span<const VertexId> loop, int continuity,
@@ -53,9 +46,12 @@ std::size_t fill_rim(EditableSurface& surface, std::span<const VertexId> loop, i
     const HolePatch patch = chart != nullptr ? fill_seen_along_x(hole, continuity)
                                              : fill_smoothly(hole, continuity, PatchOrder::AsMade);
     if (patch.result == HolePatch::Result::NotManifold)
-        fail(surface, loop, "cannot be closed: the surface is not manifold there; repair it");
+        throw DiagnosedFailure({.code = "hole-not-manifold",
+                                .place = loop_centre(surface.points_of(loop)),
+                                .remedies = {{.operation = "repair"}}});
     if (patch.result == HolePatch::Result::NotTriangulated)
-        fail(surface, loop, "cannot be closed without crossing itself");
+        throw DiagnosedFailure(
+            {.code = "hole-cap-crosses", .place = loop_centre(surface.points_of(loop))});
     const auto beside = surface.triangles_on(loop[0], loop[1]);
     const std::uint16_t label = beside.empty() ? std::uint16_t{0} : surface.label(beside.front());
     for (const Vec3& p : patch.points) {

@@ -225,10 +225,11 @@ void check_share(const Field& field, const Extraction& result) {
         low = -*most;
         high = -*least;
     }
-    throw AlgorithmFailure(std::string(inside == 0 ? "no voxel" : "every voxel") +
-                           " is inside at threshold " + text_of(result.threshold) +
-                           " (values from " + text_of(low) + " to " + text_of(high) +
-                           "); give another threshold");
+    throw DiagnosedFailure({.code = inside == 0 ? "no-voxel-inside" : "every-voxel-inside",
+                            .words = {{"threshold", text_of(result.threshold)},
+                                      {"least", text_of(low)},
+                                      {"most", text_of(high)}},
+                            .remedies = {{.arguments = {{"threshold", ""}}}}});
 }
 
 VesselBody body_of(const ExtractionParameters& parameters) {
@@ -251,7 +252,7 @@ Field with_levels(const Field& field, const ExtractionParameters& parameters, Ex
         found = find_levels(field.image, field.iso, body_of(parameters), progress);
     } catch (const AlgorithmFailure& failure) {
         result.why_no_levels = failure.what();
-        result.reasons.push_back("one threshold, no local levels: " + result.why_no_levels);
+        result.reasons.push_back("one threshold instead of a local one: " + result.why_no_levels);
         return field;
     }
     WallLevels levels = found->wall;
@@ -261,8 +262,8 @@ Field with_levels(const Field& field, const ExtractionParameters& parameters, Ex
         levels.highest = -levels.highest;
     }
     result.levels = levels;
-    result.reasons.push_back("levels at the wall from " + formatted(levels.lowest) + " to " +
-                             formatted(levels.highest) +
+    result.reasons.push_back("local thresholds at the wall from " + formatted(levels.lowest) +
+                             " to " + formatted(levels.highest) +
                              ": what the image's blur leaves of the vessel's contrast there");
     std::vector<float> voxels = *field.image.voxels;
     for (std::size_t v = 0; v < voxels.size(); ++v)

@@ -11,6 +11,7 @@
 #include "geometry/image/local_contrast.h"
 #include "geometry/image/occupancy.h"
 #include "geometry/image/vessel_block.h"
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/parallel.h"
 #include "geometry/kernel/wording.h"
@@ -62,16 +63,17 @@ public:
         double change = 1.0;
         for (int round = 0; round < kMostRounds && change > kSettled; ++round) {
             progress.report(static_cast<double>(round) / kMostRounds,
-                            "finding the levels at the wall");
+                            "finding the local threshold");
             show_vessel();
             if (round == 0) first_volume_ = volume_;
             shown_.background = local_background(image_, shown_);
             fit_ = fit_contrast(image_, shown_, fit_);
             change = set_levels(local_contrast(image_, shown_, fit_.contrast));
             if (volume_ > kMostGrowth * first_volume_)
-                throw AlgorithmFailure("the levels run into what is around the vessel");
+                throw AlgorithmFailure(
+                    "the local threshold reaches into the vessel's surroundings");
         }
-        if (change > kUnsettled) throw AlgorithmFailure("the levels at the wall do not settle");
+        if (change > kUnsettled) throw AlgorithmFailure("the local threshold does not converge");
         if (fit_.residual > kMostResidual)
             throw AlgorithmFailure("the image is not like a vessel of one contrast: " +
                                    formatted(100.0 * fit_.residual, "%.0f %%") +
@@ -195,10 +197,13 @@ LevelField find_levels(const Image& image, double threshold, const VesselBody& b
                        const Progress& progress) {
     const VoxelBlock block = block_around_vessel(image, threshold, body);
     if (block.voxel_count() > kMostVoxels)
-        throw AlgorithmFailure("the vessel fills a box of " +
-                               std::to_string(block.voxel_count() >> 20) +
-                               " million voxels, more than " + std::to_string(kMostVoxels >> 20) +
-                               " million, which is too much for local levels: crop the image");
+        throw DiagnosedFailure(
+            {.code = "too-large-for-local-levels",
+             .figures = {{"million_voxels",
+                          std::ldexp(static_cast<double>(block.voxel_count()), -20)},
+                         {"most_million_voxels",
+                          std::ldexp(static_cast<double>(kMostVoxels), -20)}},
+             .remedies = {{.operation = "crop"}}});
     Synthesis synthesis(part_of(image, block), threshold, body);
     synthesis.solve(progress);
     return {.levels = with_part(image, block, synthesis.levels(), static_cast<float>(threshold)),

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "geometry/image/lines.h"
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
 
@@ -29,9 +30,9 @@ Image cubic_grid(const Image& image, double edge) {
         const double n = std::floor((image.size[a] - 1) * spacing[axis] / edge + kSlack) + 1.0;
         count *= n;
         if (count > kMostVoxels)
-            throw InvalidInput("resampling to voxels of " + formatted(edge) +
-                               " mm gives more than 2^30 voxels; crop the image or take a larger "
-                               "edge");
+            throw DiagnosedInput({.code = "too-many-voxels",
+                                  .figures = {{"edge_mm", edge}},
+                                  .remedies = {{.operation = "crop"}}});
         grid.size[a] = static_cast<int>(n);
     }
     if (count == 1.0)

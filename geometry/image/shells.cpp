@@ -8,9 +8,9 @@
 #include <string>
 #include <utility>
 
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/disjoint_sets.h"
 #include "geometry/kernel/edges.h"
-#include "geometry/kernel/errors.h"
 
 namespace vesselbench {
 
@@ -18,6 +18,10 @@ namespace {
 
 /// A smaller dropped piece is no tree of vessels [volume of what is kept].
 constexpr double kTreeShare = 0.05;
+
+std::vector<Remedy> another_threshold() {
+    return {{.arguments = {{"threshold", ""}}}};
+}
 
 struct Shells {
     std::vector<std::uint32_t> of_triangle;  ///< #T, numbered by first triangle
@@ -188,9 +192,9 @@ Surface with_separate_cuts(const Surface& surface, double smallest) {
     std::erase_if(caps, [&](const Cap& cap) { return cap.area < smallest; });
     constexpr std::size_t kMostPatches = 60000;  // patch labels are 16 bits
     if (caps.size() > kMostPatches)
-        throw AlgorithmFailure("the surface meets the image's border in " +
-                               std::to_string(caps.size()) +
-                               " places: the threshold is within the noise; choose another one");
+        throw DiagnosedFailure({.code = "threshold-in-noise",
+                                .figures = {{"places", static_cast<double>(caps.size())}},
+                                .remedies = another_threshold()});
     std::stable_sort(caps.begin(), caps.end(),
                      [](const Cap& a, const Cap& b) { return a.area > b.area; });
     std::vector<Patch> patches = other_patches(surface);
@@ -214,7 +218,7 @@ ShellChoice largest_body(const Surface& surface) {
     for (std::size_t s = 0; s < shells.volumes.size(); ++s)
         if (shells.volumes[s] > shells.volumes[best]) best = s;
     if (shells.volumes.empty() || !(shells.volumes[best] > 0.0))
-        throw AlgorithmFailure("no closed body found; choose another threshold");
+        throw DiagnosedFailure({.code = "no-closed-body", .remedies = another_threshold()});
     return only(surface, shells, best);
 }
 
@@ -231,11 +235,12 @@ ShellChoice body_at(const Surface& surface, const Vec3& point, double tolerance)
             nearest = s;
     }
     if (nearest == shells.volumes.size())
-        throw AlgorithmFailure("no closed body found; choose another threshold");
+        throw DiagnosedFailure({.code = "no-closed-body", .remedies = another_threshold()});
     if (best == shells.volumes.size() && near.distance[nearest] > tolerance)
-        throw AlgorithmFailure("the seed is in no body: the nearest one is " +
-                               std::to_string(near.distance[nearest]) +
-                               " mm away; give a seed inside the vessel, in mm, LPS");
+        throw DiagnosedFailure({.code = "seed-in-no-body",
+                                .place = point,
+                                .figures = {{"distance_mm", near.distance[nearest]}},
+                                .remedies = {{.arguments = {{"seed", ""}}}}});
     return only(surface, shells, best == shells.volumes.size() ? nearest : best);
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/parallel.h"
 
@@ -120,7 +121,8 @@ VoxelBand voxel_band(const Image& mask, int layers) {
     for (std::size_t v = 0; v < layer.size(); ++v)
         if (layer[v] != 0) band.voxels.push_back(v);
     if (band.voxels.size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
-        throw InvalidInput("the mask's outline has too many voxels; crop the image");
+        throw DiagnosedInput(
+            {.code = "mask-outline-too-large", .remedies = {{.operation = "crop"}}});
     band.inside.resize(band.size());
     band.layer.resize(band.size());
     band.depth.resize(band.size());

@@ -20,7 +20,10 @@ constexpr CatalogueText kTexts[] = {
     {"voxels-too-small",
      "the file states no unit and its voxels measure {spacing}: taken as metres; if that is wrong, "
      "give {fix}"},
+    {"unit-in-doubt", "{doubt}: give {fix}, which is mm, cm or m (prepare and new: --units)"},
     {"mask-not-labels", "mask: {reason}"},
+    {"mask-of-intensities",
+     "the mask holds neither labels nor a level set: give {fix}, the value that bounds its inside"},
     {"file-note", "{note}"},
 
     // Extraction.
@@ -44,7 +47,7 @@ constexpr CatalogueText kTexts[] = {
      "{kept_mm3:%g}): choose another one with {fix}, or keep all with {fix2}"},
     {"cleaning-changed-topology", "cleaning changed the topology: {before} became {after}"},
     {"vessel-leaves-image",
-     "the vessel leaves the image in {places#place}; it is closed by flat caps there (patches "
+     "the vessel leaves the image at {places#place}; it is closed by flat caps there (patches "
      "cut_1 ...)"},
     {"not-a-label-map",
      "the image contains {value} and is not a label map: for intensities, use {fix}"},
@@ -168,9 +171,9 @@ constexpr CatalogueText kTexts[] = {
      "{ends#smaller end|smaller ends} stayed closed: see the report[; {fix} opens "
      "{opened:%.0f} of them]"},
     {"opening-gone",
-     "the opening '{opening}' at {place} was left out: its vessel is not there any longer"},
+     "the opening '{opening}' at {place} was left out: its vessel no longer exists"},
     {"inlet-gone",
-     "the vessel of the inlet '{opening}' at {place} is not there any longer: choose another "
+     "the vessel of the inlet '{opening}' at {place} no longer exists: choose another "
      "inlet ({fix})"},
     {"flat-end-tilted",
      "a flat end was kept although tilted against the vessel's axis: {openings}; {fix} cuts it "
@@ -237,7 +240,7 @@ constexpr CatalogueText kTexts[] = {
      "lose "
      "a part of it"},
     {"kept-vertices-lost",
-     "{vertices#vertex|vertices} of weight 0 were removed or moved, to avoid ruining the rest; "
+     "{vertices#vertex|vertices} of weight 0 were removed or moved, to avoid degrading the rest; "
      "keep "
      "more triangles"},
     {"decimation-crosses-walls",
@@ -245,11 +248,99 @@ constexpr CatalogueText kTexts[] = {
      "separate the walls first"},
     {"weights-gain-nothing",
      "the weights gain nothing: the part they keep is {with_mm} mm off on average, and would be "
-     "{without_mm} mm off without them, because the free part is too small to pay for it; keep "
+     "{without_mm} mm off without them, because the free part is too small to compensate for it; "
+     "keep "
      "more "
      "triangles, or decimate without weights"},
 
     // What an operation refuses.
+    {"threshold-in-noise",
+     "the surface meets the image's border at {places#place}: the threshold is within the noise; "
+     "choose another {fix}"},
+    {"no-closed-body", "no closed body found: choose another {fix}"},
+    {"seed-in-no-body",
+     "the seed, {place}, is in no body: the nearest one is {distance_mm} mm away; choose a {fix} "
+     "inside the vessel"},
+    {"no-voxel-inside",
+     "no voxel is inside at threshold {threshold} (values from {least} to {most}): choose another "
+     "{fix}"},
+    {"every-voxel-inside",
+     "every voxel is inside at threshold {threshold} (values from {least} to {most}): choose "
+     "another {fix}"},
+    {"parts-pass-through-each-other",
+     "parts of the surface pass through each other near {place}; removing that would lose "
+     "{area_percent:%.0f} % of the area: separate or unite these parts first, or rebuild the "
+     "surface from its image"},
+    {"still-not-manifold",
+     "the surface is still not manifold near {place}: cut that place away with {fix} or {fix2}, or "
+     "rebuild the surface from its image"},
+    {"surface-one-sided",
+     "the surface has no inner and outer side (like a Moebius strip): orientations contradict each "
+     "other at {triangles#triangle}, one near {place}; cut the band there or export the surface "
+     "again"},
+    {"surface-not-connected",
+     "the triangles form {pieces#unconnected piece}, the largest of which has only "
+     "{area_percent:%.0f} % of the area: this is not a connected surface; export it again with "
+     "shared points"},
+    {"dab-without-surface",
+     "no surface within {radius_mm} mm of {place} has a normal within 60 degrees of the dab's: the "
+     "surface there has changed; brush again"},
+    {"remeshing-too-fine",
+     "remeshing would make more than {most_millions:%.0f} million triangles: use a larger {fix}"},
+    {"too-many-features",
+     "the surface bends by more than the feature angle around {regions#region}: use a larger {fix} "
+     "or {fix2}"},
+    {"too-many-subdivisions",
+     "subdividing {triangles#triangle} {iterations#time} makes more than {most_millions:%.0f} "
+     "million: use fewer {fix}"},
+    {"operation-broke", "{what}; the project is unchanged: use other arguments[, or {fix} first]"},
+    {"vertex-not-finite",
+     "vertex {vertex:%.0f} has a coordinate that is not a finite number: export the surface again "
+     "from its source"},
+    {"rim-crosses-itself",
+     "the rim of an opening or a hole crosses itself, or two of its corners coincide: use {fix} "
+     "first, or choose another place"},
+    {"hole-not-manifold",
+     "the hole at {place} cannot be closed: the surface is not manifold there; use {fix} first"},
+    {"hole-cap-crosses", "the hole at {place} cannot be closed without crossing itself"},
+    {"brush-on-degenerate",
+     "the triangle at {place} has no area: use {fix} first, or brush beside it"},
+    {"self-intersections-left",
+     "{self_intersections#self-intersection} could not be removed, one near {place}: cut that "
+     "place away with {fix} or {fix2}, or rebuild the surface from its image"},
+    {"triangle-uses-vertex-twice", "a triangle uses a vertex twice near {place}: use {fix} first"},
+    {"triangles-overlap",
+     "triangles overlap or have inconsistent orientations near {place}: use {fix} first"},
+    {"edge-not-manifold", "an edge has more than two triangles near {place}: use {fix} first"},
+    {"borders-touch", "two open boundaries touch near {place}: use {fix} first"},
+    {"vertex-not-manifold",
+     "two parts of the surface touch at one vertex near {place}: use {fix} first"},
+    {"too-large-for-local-levels",
+     "the vessel fills a box of {million_voxels:%.0f} million voxels, more than "
+     "{most_million_voxels:%.0f} million, which is too much for a local threshold: crop the image"},
+    {"too-many-voxels",
+     "resampling to voxels of {edge_mm} mm gives more than 2^30 voxels: use {fix} first, or "
+     "larger voxels"},
+    {"mask-outline-too-large", "the mask's outline has too many voxels: use {fix} first"},
+    {"no-such-opening", "there is no opening '{opening}' (known: {known}): choose {fix}"},
+    {"no-crop-region", "give either {fix}, or {fix2} and a radius"},
+    {"neighbour-without-source", "give either {fix} or {fix2}"},
+    {"voxel-size-unknown",
+     "the {constraint} constraint needs the voxel size, which is unknown: give {fix}, x,y,z in mm, "
+     "each above 0"},
+    {"stack-axis-uncertain",
+     "the direction of the image stack is uncertain: the surface has no image and too few "
+     "staircases; give {fix}, three numbers x,y,z, or use {fix2}"},
+    {"voxel-axes-unknown",
+     "all axes of the voxels are asked for, but the surface has no image, and its triangles do not "
+     "show them; give one axis with {fix}, three numbers x,y,z"},
+    {"labels-without-image", "labels need a label map or a mask: use {fix} first"},
+    {"no-neighbour", "distance awareness needs a neighbour, but there is none: use {fix} first"},
+    {"no-such-neighbour",
+     "there is no neighbour '{neighbour}': use {fix} first, or choose other {fix2}"},
+    {"neighbour-without-triangles",
+     "the neighbour '{neighbour}' has no triangles: load it again with {fix}, or use {fix2}"},
+    {"no-volume-mesh", "there is no volume mesh in this variant: use {fix} first"},
     {"edge-out-of-proportion",
      "{name} = {edge_mm} mm is less than a millionth of the model; {fix} suits it"},
     {"extrusion-too-long",
@@ -262,9 +353,9 @@ constexpr CatalogueText kTexts[] = {
     {"no-mask",
      "intensities inside a mask are asked for, but there is no mask: load the image with one "
      "({fix})"},
-    {"no-end-to-close", "no vessel ends near {place}, where one is to stay closed"},
+    {"no-end-to-close", "no vessel end is near {place}, where one is to stay closed"},
     {"no-end-near",
-     "no vessel ends near {given}, where {meant} is to be; the nearest end is at {place}"},
+     "no vessel end is near {given}, where {meant} is to be; the nearest end is at {place}"},
     {"one-end-twice", "two inlets mean the same end, at {place}"},
     {"cap-not-flat", "the cap '{cap}' is not flat: clip it first with {fix}"},
     {"cap-not-a-disc",
@@ -288,14 +379,42 @@ constexpr CatalogueText kTexts[] = {
      "instead"},
     {"branch-too-large",
      "the branch with its tip at {place} cannot be removed: {wall_percent:%.0f} % of the wall "
-     "would go with it"},
+     "would be removed with it"},
     {"plane-misses-surface",
      "the clipping plane at {place} does not meet the surface: give the distance from the tip, or "
      "open the ends one by one ({fix})"},
     {"plane-meets-border",
      "the clipping plane at {place} meets an open border: clip farther away from the tip"},
-    {"cut-without-rim",
-     "the cut at {place} has no simple rim: repair the surface there, or clip elsewhere"},
+    {"cut-without-rim", "the cut at {place} has no simple rim: use {fix} first, or clip elsewhere"},
+    {"cut-takes-wall", "the cut at {place} would remove {wall_percent:%.0f} % of the wall"},
+    {"cut-loses-vessel",
+     "a cut there would lose {length_mm:%.1f} mm of vessel at {place}, {diameter_mm} mm wide"},
+    {"cuts-take-model",
+     "the cuts would remove {volume_percent:%.0f} % of the model: it is hardly a vessel; {fix}, "
+     "the place of an end, opens a single one"},
+    {"cap-not-flat-after-cuts", "the cap at {place} is not flat after the cuts"},
+    {"opening-would-lie-in-wall", "the opening at {place} would lie in a vessel's side"},
+    {"no-lumen",
+     "the surface encloses no lumen: check its unit, or correct its orientation with {fix}"},
+    {"surface-is-sheet",
+     "there is no vessel in it: the surface is a sheet, {width_mm} mm wide and {thickness_mm} mm "
+     "thick on average, and encloses no lumen"},
+    {"vessel-within-noise",
+     "there is no vessel in it that can be distinguished from noise: the surface has "
+     "{loops#loop}; choose another threshold ({fix}), or add a mask ({fix2})"},
+    {"no-branch-at-tip", "no branch has its tip near {place}"},
+    {"branch-without-parent",
+     "the vessel with its tip at {place} has no parent vessel: nothing would remain"},
+    {"no-closed-section",
+     "the branch with its tip at {place} has no closed section: give {fix} from its tip"},
+    {"distance-beyond-branch",
+     "the branch with its tip at {place} is only {length_mm} mm long: use a smaller {fix}"},
+    {"no-section-at-distance",
+     "the branch with its tip at {place} has no closed section {distance_mm} mm from its tip: "
+     "choose another {fix}"},
+    {"no-centerline",
+     "no centerline found: the lumen is thinner than the search grid, or not closed; use {fix} "
+     "first, or {fix2} to keep the vessels of interest only"},
     {"cut-in-loop",
      "the cut at {place} does not separate the branch from the rest: the vessels form a loop "
      "there; clip one of the other branches as well, or choose another place"},
@@ -343,27 +462,31 @@ constexpr CatalogueText kTexts[] = {
      "surface"},
     {"surface-not-fillable", "the surface cannot be filled with tetrahedra:{obstacles}"},
     {"surface-not-finite",
-     "a coordinate is not a finite number ({count:%.0f} x): the file is damaged; export it again "
+     "{count#coordinate is not a finite number|coordinates are not finite numbers}: the file is "
+     "damaged; export it again "
      "from its source"},
-    {"surface-duplicate", "{count:%.0f} x a triangle occurs twice, at {places}; use {fix}"},
-    {"surface-degenerate", "{count:%.0f} x a triangle has no area, at {places}; use {fix}"},
+    {"surface-duplicate", "{count#triangle occurs|triangles occur} twice, at {places}; use {fix}"},
+    {"surface-degenerate", "{count#triangle has|triangles have} no area, at {places}; use {fix}"},
     {"surface-sliver",
-     "{count:%.0f} x a triangle is a sliver (height below 1 % of its longest edge), at {places}; "
+     "{count#triangle is a sliver|triangles are slivers} (height below 1 % of the longest edge), "
+     "at "
+     "{places}; "
      "use {fix}"},
     {"surface-gap",
-     "{count:%.0f} x the surface has a gap (an edge with one triangle), at {places}: close it; "
+     "{count#gap|gaps} in the surface (edges with one triangle), at {places}: close them; "
      "{fix} makes caps, {fix2} closes holes"},
     {"surface-edge-not-manifold",
-     "{count:%.0f} x more than two triangles share an edge, at {places}; use {fix}"},
+     "{count#edge is|edges are} shared by more than two triangles, at {places}; use {fix}"},
     {"surface-vertex-not-manifold",
-     "{count:%.0f} x parts of the surface touch at a single vertex, at {places}; use {fix}"},
+     "parts of the surface touch at {count#single vertex|single vertices}, at {places}; use {fix}"},
     {"surface-orientation",
-     "{count:%.0f} x two adjacent triangles have opposite orientations, at {places}; use {fix}"},
-    {"surface-in-parts",
-     "{count:%.0f} x the surface consists of several separate parts, at {places}; use {fix}"},
-    {"surface-inside-out", "{count:%.0f} x the triangles face inward, at {places}; use {fix}"},
+     "{count#pair|pairs} of adjacent triangles with opposite orientations, at {places}; use {fix}"},
+    {"surface-in-parts", "the surface consists of several separate parts, at {places}; use {fix}"},
+    {"surface-inside-out", "the triangles face inward, at {places}; use {fix}"},
     {"surface-crosses-itself",
-     "{count:%.0f} x two triangles intersect, at {places}; use {fix}; if two branches touch, "
+     "{count#pair of triangles intersects|pairs of triangles intersect}, at {places}; use {fix}; "
+     "if "
+     "two branches touch, "
      "extract them separately (a mask, another threshold)"},
     {"thin-place",
      "the thinnest place of the model is {distance_mm} mm, below {limit_mm} mm, at {place}"},
@@ -383,24 +506,26 @@ constexpr CatalogueText kTexts[] = {
     // Edits and recipes.
     {"argument-without-effect", "{argument} has no effect without {condition}"},
     {"effect-on-volume-differs",
-     "it changes the volume by {now_percent:%+.2f} %, by {before_percent:%+.2f} % before an "
+     "it changes the volume by {now_percent:%+.2f} %, but by {before_percent:%+.2f} % before an "
      "earlier "
      "edit was changed: check that it still does what it was made for"},
     {"effect-on-surface-differs",
-     "it changes the surface by up to {now_mm:%.3f} mm, by up to {before_mm:%.3f} mm before an "
+     "it changes the surface by up to {now_mm:%.3f} mm, but by up to {before_mm:%.3f} mm before an "
      "earlier edit was changed: check that it still does what it was made for"},
     {"volume-changed",
      "the volume changed by {volume_percent:%.1f} %: fewer {fix}, or {fix2}, keep it"},
     {"volume-lost",
-     "it would take {volume_percent:%.0f} % of the volume: the triangles are too coarse for the "
+     "it would remove {volume_percent:%.0f} % of the volume: the triangles are too coarse for the "
      "vessel; make them finer with {fix}"},
-    {"recipe-unusable", "the recipe of the case cannot be used, the usual one is: {reason}"},
+    {"recipe-unusable",
+     "the case's recipe cannot be used, and the usual one is used instead: {reason}"},
     {"read-in-another-unit",
      "the input was read in {was}, not in {wanted}: prepare it without a unit[{advice}][; another "
      "unit is a change of the edit that read it:\n{fix}, then --resume]"},
     {"edit-no-longer-applies",
      "edit {number} {name} no longer applies after an earlier edit was changed: {why}; change its "
-     "arguments, remove it, or\n{fix}, then --resume: it chooses again what it chose by itself"},
+     "arguments, remove it, or\n{fix}, then --resume: it chooses again what it chose "
+     "automatically"},
     {"set-too-late",
      "--set '{setting}': {name} has been made already[; to change it:\n{fix}, then --resume]"},
     {"opening-in-wall",

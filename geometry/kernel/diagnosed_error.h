@@ -1,5 +1,6 @@
 #pragma once
 
+#include <exception>
 #include <utility>
 #include <vector>
 
@@ -36,6 +37,9 @@ public:
 using DiagnosedFailure = DiagnosedError<AlgorithmFailure>;
 using DiagnosedInput = DiagnosedError<InvalidInput>;
 using DiagnosedUsage = DiagnosedError<UsageError>;
+
+/// What an error knows; of an error without diagnostics its text alone.
+[[nodiscard]] std::vector<Diagnostic> diagnostics_of(const std::exception& error);
 
 extern template class DiagnosedError<AlgorithmFailure>;
 extern template class DiagnosedError<InvalidInput>;

@@ -1,12 +1,11 @@
 #include "geometry/kernel/finite_positions.h"
 
 #include <atomic>
-#include <string>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "geometry/kernel/errors.h"
+#include "geometry/kernel/diagnosed_error.h"
 
 namespace vesselbench {
 
@@ -29,7 +28,8 @@ void require_finite(const Positions& positions) {
     if (all_finite(positions)) return;
     for (std::size_t v = 0; v < positions.size(); ++v)
         if (!positions[v].allFinite())
-            throw InvalidInput("vertex " + std::to_string(v) + " has no finite position");
+            throw DiagnosedInput(
+                {.code = "vertex-not-finite", .figures = {{"vertex", static_cast<double>(v)}}});
 }
 
 }  // namespace vesselbench

@@ -24,7 +24,7 @@ ContentKey key_of_patches(const std::vector<Patch>& patches) {
 }  // namespace
 
 ContentKey shape_key(const Surface& surface, DerivedCache& cache) {
-    if (surface.empty()) throw InvalidInput("the surface is empty; load or extract one first");
+    if (surface.empty()) throw InvalidInput("the surface is empty");
     const ContentKey positions =
         cache.key_of(surface.positions, [&] { return key_of_positions(surface.points()); });
     return content_key({surface.topology->key(), positions});

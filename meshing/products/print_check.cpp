@@ -107,7 +107,7 @@ bool PrintCheck::is_printable(double thinnest, double closest) const {
 }
 
 PrintCheck print_check(const Surface& surface, const Progress& progress) {
-    if (surface.empty()) throw InvalidInput("print-check: the surface has no triangles");
+    if (surface.empty()) throw InvalidInput("the surface has no triangles");
     PrintCheck check;
     progress.report(0.0, "checking the surface");
     check.problems = surface_problems(surface, progress);

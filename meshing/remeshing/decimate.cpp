@@ -78,7 +78,7 @@ std::vector<Place> new_crossings(const Surface& source, const Surface& result,
 
 void lock_around(const Surface& source, const std::vector<Place>& places, double reach,
                  std::vector<std::uint8_t>& locked, const Progress& progress) {
-    progress.report(1.0, "keeping walls apart");
+    progress.report(1.0, "separating walls");
     locked.resize(source.vertex_count(), 0);
     for (const Place& place : places) {
         progress.check_cancelled();

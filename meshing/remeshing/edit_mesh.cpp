@@ -5,16 +5,16 @@
 
 #include <tbb/parallel_sort.h>
 
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/space_order.h"
-#include "geometry/kernel/wording.h"
 
 namespace vesselbench {
 
 namespace {
 
-[[noreturn]] void refuse(const char* what, const Vec3& at) {
-    throw InvalidInput(what + (" near " + place_text(at)) + "; repair the surface first");
+[[noreturn]] void refuse(const char* code, const Vec3& at) {
+    throw DiagnosedInput({.code = code, .place = at, .remedies = {{.operation = "repair"}}});
 }
 
 }  // namespace
@@ -25,7 +25,7 @@ EditMesh::EditMesh(const Surface& surface)
       first_hole_(static_cast<std::uint32_t>(surface.patches.size())) {
     for (TriangleId t = 0; t < surface.triangle_count(); ++t) {
         const auto& [a, b, c] = surface.triangles()[t];
-        if (a == b || b == c || c == a) refuse("a triangle uses a vertex twice", points[a]);
+        if (a == b || b == c || c == a) refuse("triangle-uses-vertex-twice", points[a]);
         add_triangle(a, b, c, (*surface.patch_labels)[t]);
     }
     find_twins(surface);
@@ -55,10 +55,9 @@ void EditMesh::find_twins(const Surface& surface) {
         for (const TriangleId t : fans.row(b))
             for (HalfEdge g = 3 * t; g < 3 * t + 3; ++g) {
                 if (g != h && origin(g) == a && target(g) == b)
-                    refuse("triangles overlap or have inconsistent orientations", points[a]);
+                    refuse("triangles-overlap", points[a]);
                 if (origin(g) != b || target(g) != a) continue;
-                if (twin_[h] != kNone && twin_[h] != g)
-                    refuse("an edge has more than two triangles", points[a]);
+                if (twin_[h] != kNone && twin_[h] != g) refuse("edge-not-manifold", points[a]);
                 twin_[h] = g;
             }
     }
@@ -69,7 +68,7 @@ void EditMesh::fill_holes() {
     std::vector<HalfEdge> open_at(points.size(), kNone);  // boundary half-edge leaving a vertex
     for (HalfEdge h = 0; h < count; ++h) {
         if (twin_[h] != kNone) continue;
-        if (open_at[origin(h)] != kNone) refuse("two open boundaries touch", points[origin(h)]);
+        if (open_at[origin(h)] != kNone) refuse("borders-touch", points[origin(h)]);
         open_at[origin(h)] = h;
     }
     std::uint32_t patch = first_hole_;
@@ -95,7 +94,7 @@ void EditMesh::require_single_fans() const {
     for (const VertexId v : origin_) ++corners[v];
     for (VertexId v = 0; v < points.size(); ++v)
         if (leaving_[v] != kNone && valence(v) != corners[v])
-            refuse("two parts of the surface touch at one vertex", points[v]);
+            refuse("vertex-not-manifold", points[v]);
 }
 
 int EditMesh::valence(VertexId v) const {

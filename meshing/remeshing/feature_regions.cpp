@@ -8,6 +8,7 @@
 #include <numeric>
 #include <utility>
 
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/edges.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
@@ -103,9 +104,11 @@ FeatureRegions labelled(const Surface& surface, Regions& regions) {
     const PatchLabels& labels = *surface.patch_labels;
     const auto areas = areas_of(surface, regions);
     if (areas.size() > kMostRegions)
-        throw AlgorithmFailure("the surface bends by more than feature_angle around " +
-                               std::to_string(areas.size()) +
-                               " regions: use a larger feature_angle or feature_size");
+        throw DiagnosedFailure({.code = "too-many-features",
+                                .operation = "remesh",
+                                .figures = {{"regions", static_cast<double>(areas.size())}},
+                                .remedies = {{.arguments = {{"feature_angle", ""}}},
+                                             {.arguments = {{"feature_size", ""}}}}});
     FeatureRegions found;
     found.patches = surface.patches;
     std::map<TriangleId, std::uint16_t> row;

@@ -240,7 +240,7 @@ Surface parted(const Surface& source, const Remesher& remesher, const Surface& r
     report.crossings_parted = crossings.size();
     report.crossing = result.points()[result.triangles()[crossings.front().first][0]];
     try {
-        progress.report(0.0, "parting walls that cross");
+        progress.report(0.0, "separating walls that cross");
         Repaired repaired =
             repair(result, {.keep_components = connected_components(*source.topology).count()},
                    progress.part(0.0, 0.3));

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <utility>
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
 
-#include "geometry/kernel/errors.h"
+#include "geometry/kernel/diagnosed_error.h"
 #include "meshing/remeshing/selected.h"
 
 namespace vesselbench {
@@ -97,9 +96,10 @@ double Remesher::longest_share() const {
 
 void Remesher::check_size() const {
     if (mesh.triangle_count() <= kMostAtOnce) return;
-    throw AlgorithmFailure("remeshing would make more than " +
-                           std::to_string(kMostAtOnce / 1'000'000) +
-                           " million triangles; use a larger edge");
+    throw DiagnosedFailure({.code = "remeshing-too-fine",
+                            .operation = "remesh",
+                            .figures = {{"most_millions", static_cast<double>(kMostAtOnce) / 1e6}},
+                            .remedies = {{.arguments = {{"edge", ""}}}}});
 }
 
 void Remesher::set_sizes(const std::vector<double>& source_sizes) {

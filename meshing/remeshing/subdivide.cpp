@@ -6,7 +6,6 @@
 #include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/edges.h"
 #include "geometry/kernel/errors.h"
-#include "geometry/kernel/wording.h"
 
 namespace vesselbench {
 
@@ -200,9 +199,13 @@ Surface subdivide(const Surface& surface, int iterations, const Progress& progre
     if (iterations < 1 || iterations > kMostIterations)
         throw InvalidInput("iterations = " + std::to_string(iterations) + " is not in [1, 6]");
     if (surface.triangle_count() > kMostTriangles >> (2 * iterations))
-        throw InvalidInput("subdividing " + std::to_string(surface.triangle_count()) +
-                           " triangles " + counted(static_cast<std::size_t>(iterations), "time") +
-                           " makes more than 40 million; use fewer iterations");
+        throw DiagnosedInput(
+            {.code = "too-many-subdivisions",
+             .operation = "subdivide",
+             .figures = {{"triangles", static_cast<double>(surface.triangle_count())},
+                         {"iterations", static_cast<double>(iterations)},
+                         {"most_millions", static_cast<double>(kMostTriangles) / 1e6}},
+             .remedies = {{.arguments = {{"iterations", ""}}}}});
     Surface result = surface;
     for (int i = 0; i < iterations; ++i)
         result = subdivided_once(

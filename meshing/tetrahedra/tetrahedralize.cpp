@@ -55,7 +55,7 @@ std::vector<Rung> ladder(double quality) {
 }
 
 void check_input(const Surface& surface, TetrahedralizeReport& report, const Progress& progress) {
-    if (surface.empty()) throw InvalidInput("tetrahedralize: the surface has no triangles");
+    if (surface.empty()) throw InvalidInput("the surface has no triangles");
     std::vector<Diagnostic> obstacles;
     for (const SurfaceProblem& problem : surface_problems(surface, progress))
         (is_obstacle(problem) ? obstacles : report.warnings).push_back(diagnostic_of(problem));

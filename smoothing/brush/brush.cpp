@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "geometry/kernel/argument_checks.h"
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/finite_positions.h"
-#include "geometry/kernel/wording.h"
 
 namespace vesselbench {
 
@@ -51,8 +50,9 @@ Anchor nearest_anchor(const Surface& surface, const SurfaceDistance& places, con
     const SurfacePoint place = places.closest_point(point);
     const Vec3 normal = area_normal(surface.points(), surface.triangles()[place.triangle]);
     if (!(normal.norm() > 0.0))
-        throw AlgorithmFailure("the triangle at " + place_text(place.point) +
-                               " has no area: repair the surface, or brush beside it");
+        throw DiagnosedFailure({.code = "brush-on-degenerate",
+                                .place = place.point,
+                                .remedies = {{.operation = "repair"}}});
     Anchor anchor{.point = place.point, .normal = normal.normalized(), .radius = otherwise};
     const auto hits = places.all_hits(place.point, -anchor.normal);
     const Triangle& here = surface.triangles()[place.triangle];
@@ -111,11 +111,9 @@ SurfacePoint BrushStroke::resolve(const Anchor& anchor) const {
     const double reach = std::min(best.distance, anchor.radius) + farthest_;
     for (const TriangleId t : places_->triangles_within(anchor.point, reach)) try_triangle(t);
     if (best.distance <= anchor.radius) return best;
-    std::ostringstream text;
-    text << "no surface within " << anchor.radius << " mm of " << place_text(anchor.point)
-         << " whose normal is within 60 degrees of the dab's: the surface there has changed; brush "
-            "again";
-    throw AlgorithmFailure(text.str());
+    throw DiagnosedFailure({.code = "dab-without-surface",
+                            .place = anchor.point,
+                            .figures = {{"radius_mm", anchor.radius}}});
 }
 
 std::vector<VertexId> BrushStroke::add(const Dab& dab) {

@@ -145,8 +145,9 @@ SCENARIO("An end that cannot be cut where it should is cut nearby", "[geometry][
     CHECK(upper(first).way == OpeningWay::Cut);
     GIVEN("that the chosen place has failed") {
         const OpeningPlace& chosen = upper(first).place;
-        const OpeningPlan second = plan_openings(
-            tube, line_graph(), {.failed = {{chosen.tip, chosen.plane.point, "it failed"}}});
+        const OpeningPlan second =
+            plan_openings(tube, line_graph(),
+                          {.failed = {{chosen.tip, chosen.plane.point, plain_text("it failed")}}});
         THEN("another place is found, and the record names it first") {
             REQUIRE(second.openings.size() == 2);
             CHECK((upper(second).place.plane.point - chosen.plane.point).norm() > 1e-6);
@@ -162,7 +163,8 @@ SCENARIO("An end that cannot be cut where it should is cut nearby", "[geometry][
             const OpeningPlace& nearer = upper(second).place;
             REQUIRE(nearer.plane.point.z() > chosen.plane.point.z());
             const OpeningPlan third = plan_openings(
-                tube, line_graph(), {.failed = {{nearer.tip, nearer.plane.point, "lost", true}}});
+                tube, line_graph(),
+                {.failed = {{nearer.tip, nearer.plane.point, plain_text("lost"), true}}});
             for (const PlannedOpening& opening : third.openings) {
                 const double z = opening.place.plane.point.z();
                 CHECK((z < 15.0 || z > nearer.plane.point.z()));
@@ -172,7 +174,8 @@ SCENARIO("An end that cannot be cut where it should is cut nearby", "[geometry][
             CHECK_THROWS_WITH(
                 plan_openings(
                     tube, line_graph(),
-                    {.strict = true, .failed = {{chosen.tip, chosen.plane.point, "it failed"}}}),
+                    {.strict = true,
+                     .failed = {{chosen.tip, chosen.plane.point, plain_text("it failed")}}}),
                 Contains("it failed; closed="));
         }
         THEN("strictly, it is one of a closed end, too") {
@@ -184,7 +187,8 @@ SCENARIO("An end that cannot be cut where it should is cut nearby", "[geometry][
             CHECK_THROWS_WITH(
                 plan_openings(
                     unlabelled, line_graph(),
-                    {.strict = true, .failed = {{place.tip, place.plane.point, "it failed"}}}),
+                    {.strict = true,
+                     .failed = {{place.tip, place.plane.point, plain_text("it failed")}}}),
                 Contains("it failed; closed="));
         }
     }

@@ -242,7 +242,7 @@ SCENARIO("If walls would cross, vertices are kept in further attempts", "[meshin
     }
     THEN("a user can cancel in between") {
         const auto cancel = [&](double, std::string_view what) {
-            if (what == "keeping walls apart" && ++locked == 1) stop.request_stop();
+            if (what == "separating walls" && ++locked == 1) stop.request_stop();
         };
         CHECK_THROWS_AS(decimate(shell, target, {}, Progress(cancel, stop.get_token())), Cancelled);
         CHECK(locked == 1);

@@ -312,7 +312,7 @@ SCENARIO("Walls that almost touch are separated where no edge is short enough",
             CHECK(connected_components(*made.surface.topology).count() == 1);
             if (made.report.crossings_parted == 0) continue;
             parted += made.report.crossings_parted;
-            CHECK(never.whats().contains("parting walls that cross"));
+            CHECK(never.whats().contains("separating walls that cross"));
             CHECK(made.report.wall.equiangle_skewness.max <= 0.65);
             CHECK(made.report.wall.radius_ratio.min >= 0.35);
         }

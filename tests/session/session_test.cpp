@@ -228,6 +228,18 @@ SCENARIO("An edit that no longer applies becomes stale, and says why", "[session
     CHECK(statuses(session) == std::vector{kDone, kStale, kDone});
     CHECK(session.log()[1].reason == "no vertex lies within reach of the place");
     CHECK(top_of(scene) == Approx(top_of(session.scene_after(1)) + 1.0));
+    THEN("what would mend it is stored with the reason") {
+        const std::string file = temporary_folder() + "/stale.vbench";
+        session.save_as(file);
+        const Session opened = Session::open(file, options());
+        for (const std::vector<LogEntry>& log : {session.log(), opened.log()}) {
+            REQUIRE(log[1].refusal.size() == 1);
+            CHECK(log[1].refusal[0].operation == "bump");
+            CHECK(log[1].refusal[0].severity == Severity::Error);
+            CHECK(log[1].refusal[0].remedies.at(0).arguments.at("reach") == "100");
+            CHECK(log[2].refusal.empty());
+        }
+    }
     THEN("it comes back with the old first edit") {
         session.undo();
         CHECK(statuses(session) == std::vector{kDone, kDone, kDone});

@@ -10,6 +10,7 @@
 #include <tbb/global_control.h>
 #include <unistd.h>
 
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "tests/session/forbidden_acts.h"
 #include "tests/support/shapes.h"
@@ -81,7 +82,11 @@ Outcome bump(const Scene& scene, const Arguments& arguments, Progress& progress)
         ++moved;
     }
     progress.report(0.5, "pushing");
-    if (moved == 0) throw AlgorithmFailure("no vertex lies within reach of the place");
+    if (moved == 0) {
+        Diagnostic nothing = plain_text("no vertex lies within reach of the place");
+        nothing.remedies = {{.arguments = {{"reach", "100"}}}};
+        throw DiagnosedFailure(std::move(nothing));
+    }
     Outcome result =
         made(with_surface(scene, surface.with_positions(std::move(points))), arguments);
     result.resolved.set("height", height);

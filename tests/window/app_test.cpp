@@ -95,7 +95,7 @@ SCENARIO("A wrong value shows why and cannot be applied", "[window][app]") {
     choose(*shell, "smoothing", "smooth");
     CHECK(is_enabled(*shell, "operation.apply"));
     REQUIRE(shell->fill_item("field.iterations", "-3"));
-    CHECK_THAT(shell->app().place().form()->error(), Contains("is not allowed"));
+    CHECK_THAT(shell->app().place().form()->error(), Contains("It must be"));
     CHECK_FALSE(is_enabled(*shell, "operation.apply"));
     CHECK_FALSE(is_enabled(*shell, "operation.preview"));
     REQUIRE(shell->fill_item("field.iterations", "3"));

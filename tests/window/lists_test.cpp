@@ -202,22 +202,21 @@ SCENARIO("The history's columns give way to the name", "[window][history]") {
     CHECK(history_columns(15).name == 15);
 }
 
-SCENARIO("A message names the operation that its text recommends", "[window][messages]") {
-    CHECK(remedy_in("the surface has holes: use fill-hole, then remesh", "tetrahedralize") ==
-          "fill-hole");
-    CHECK(remedy_in("remesh failed: use repair", "remesh") == "repair");
-    CHECK(remedy_in("it is remeshed and smoother", "").empty());
-    CHECK(make_message(MessageKind::Remark, "use repair").remedy.empty());
+SCENARIO("A message has the remedies of its diagnostic, a text alone has none",
+         "[window][messages]") {
+    CHECK(make_message(MessageKind::Error, "use repair").remedies.empty());
     const Diagnostic gap{.code = "surface-gap",
                          .severity = Severity::Error,
                          .operation = "tetrahedralize",
                          .place = Vec3(1, 0, 0),
                          .figures = {{"count", 3.0}},
                          .words = {{"places", "(1, 0, 0) mm"}},
-                         .remedies = {{.operation = "fill-hole"}, {.operation = "repair"}}};
+                         .remedies = {{.operation = "fill-hole"}, {.arguments = {{"edge", "1"}}}}};
     const Message failed = make_message(gap);
     CHECK(failed.kind == MessageKind::Error);
-    CHECK(failed.remedy == "fill-hole");
+    REQUIRE(failed.remedies.size() == 2);
+    CHECK(failed.remedies[0].operation == "fill-hole");
+    CHECK(failed.remedies[1].operation == "tetrahedralize");
     CHECK(failed.place == Vec3(1, 0, 0));
 }
 

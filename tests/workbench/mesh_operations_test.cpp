@@ -186,7 +186,7 @@ SCENARIO("decimate refuses arguments that make no sense", "[workbench][decimate]
     CHECK_THROWS_AS(run("decimate", sphere, {{"triangles", std::int64_t{0}}}), UsageError);
     CHECK_THROWS_AS(run("decimate", sphere, {{"max_error", 0.0}}), UsageError);
     CHECK_THROWS_WITH(run("decimate", sphere, {{"distance", "linear"}}),
-                      Catch::Contains("decimate: ") && Catch::Contains("load-neighbour"));
+                      Catch::Contains("load-neighbour"));
     CHECK_THROWS_WITH(run("decimate", sphere, {{"painted", "none"}}), Catch::Contains("'none'"));
     CHECK_THROWS_AS(run("decimate", sphere, {{"staircase", true}, {"stack_axis", Vec3(0, 0, 0)}}),
                     UsageError);

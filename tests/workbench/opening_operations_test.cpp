@@ -262,7 +262,7 @@ SCENARIO("Ends are named by their numbers, and stored as places", "[workbench][o
     CHECK_THROWS_WITH(run("clip-opening", surface, {{"close_ends", std::vector<double>{9}}}),
                       Contains("there is no end 9"));
     CHECK_THROWS_WITH(run("clip-opening", surface, {{"open", std::vector<double>{90, 0, 0}}}),
-                      Contains("no vessel ends near (90, 0, 0) mm"));
+                      Contains("no vessel end is near (90, 0, 0) mm"));
     CHECK_THROWS_AS(run("clip-opening", surface, {{"open", std::vector<double>{16, 0}}}),
                     UsageError);
 }

@@ -53,7 +53,7 @@ std::vector<Nonsense> nonsense() {
             {{"omega=0"}, {"'omega'", "above 0 1/mm"}},
             {{"margin=0"}, {"'margin'", "above 0 mm"}},
             {{"margin=-2"}, {"'margin'", "above 0 mm"}},
-            {{"constraint=voxel"}, {"cell=x,y,z", "above 0"}},
+            {{"constraint=voxel"}, {"cell, x,y,z", "above 0"}},
             {{"constraint=diamond", "cell=1,0,1"}, {"'cell'", "above 0 mm"}},
             {{"cell=1,-1,1"}, {"'cell'", "above 0 mm"}},
             {{"filter=laplac"}, {"'filter'", "did you mean 'laplace'"}},

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/diagnostic_text.h"
 #include "geometry/kernel/wording.h"
 #include "workbench/case/readable_name.h"
@@ -95,14 +94,6 @@ std::vector<std::string> worded(const std::vector<Diagnostic>& diagnostics,
     std::vector<std::string> texts;
     for (const Diagnostic& diagnostic : diagnostics) texts.push_back(worded(diagnostic, audience));
     return texts;
-}
-
-std::vector<Diagnostic> diagnostics_of(const std::exception& error) {
-    if (const auto* diagnosed = dynamic_cast<const Diagnosed*>(&error))
-        return diagnosed->diagnostics();
-    Diagnostic text = plain_text(error.what());
-    text.severity = Severity::Error;
-    return {text};
 }
 
 }  // namespace vesselbench

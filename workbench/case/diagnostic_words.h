@@ -1,6 +1,5 @@
 #pragma once
 
-#include <exception>
 #include <string>
 #include <vector>
 
@@ -26,8 +25,5 @@ struct Audience {
 
 [[nodiscard]] std::vector<std::string> worded(const std::vector<Diagnostic>& diagnostics,
                                               const Audience& audience = {});
-
-/// What an error knows; of an error without diagnostics its text alone.
-[[nodiscard]] std::vector<Diagnostic> diagnostics_of(const std::exception& error);
 
 }  // namespace vesselbench

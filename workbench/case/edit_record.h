@@ -46,8 +46,8 @@ struct ResultRecord {
     ResultId input = 0;
     std::string stale_reason;
     Arguments resolved;
-    std::vector<Diagnostic> warnings;
-    std::string report;  ///< JSON; may be empty
+    std::vector<Diagnostic> warnings;  ///< of a stale result: the errors that its reason words
+    std::string report;                ///< JSON; may be empty
     SurfaceChange change;
     double duration = 0.0;        ///< [s]
     std::string time;             ///< when it ran, UTC

@@ -54,42 +54,13 @@ std::string wanted_text(const Parameter& parameter) {
     }
 }
 
-std::string wanted(const Parameter& parameter) {
-    const std::string range = allowed_range(parameter);
-    const std::string in_range = range.empty() ? "" : " (" + range + ")";
-    switch (parameter.type) {
-        case ParameterType::Flag:
-            return "true or false";
-        case ParameterType::Integer:
-            return "an integer" + in_range;
-        case ParameterType::Real:
-            return "a number" + in_range +
-                   (parameter.choices.empty() ? "" : ", or " + joined(parameter.choices));
-        case ParameterType::Choice:
-            return "one of " + joined(parameter.choices);
-        case ParameterType::Point:
-            return "three numbers x,y,z" + in_range +
-                   (parameter.choices.empty() ? "" : ", or " + joined(parameter.choices));
-        case ParameterType::List:
-            return "numbers separated by commas" + in_range;
-        case ParameterType::Records:
-            return "records as JSON, " + range_text(parameter) +
-                   ", or the values of their fields one after the other, separated by commas";
-        case ParameterType::Text:
-            return wanted_text(parameter);
-        case ParameterType::File:
-            return "a file name";
-    }
-    return "";
-}
-
 [[noreturn]] void refuse(const Parameter& parameter, const std::string& called,
                          const std::string& text) {
     const std::string near = parameter.type == ParameterType::Choice
                                  ? did_you_mean(text, parameter.choices)
                                  : std::string();
     throw UsageError(called + " = '" + shortened(printable(text)) +
-                     "' is not allowed: it must be " + wanted(parameter) + near);
+                     "' is not allowed: it must be " + allowed_text(parameter) + near);
 }
 
 template <class Number>
@@ -207,6 +178,35 @@ std::string to_string(const Condition& condition) {
 bool holds(const Condition& condition, const Parameter& parameter, const std::string& text) {
     if (!condition.values.empty()) return std::ranges::count(condition.values, text) > 0;
     return !text.empty() && !(parameter.default_value && text == to_text(*parameter.default_value));
+}
+
+std::string allowed_text(const Parameter& parameter) {
+    const std::string range = allowed_range(parameter);
+    const std::string in_range = range.empty() ? "" : " (" + range + ")";
+    switch (parameter.type) {
+        case ParameterType::Flag:
+            return "true or false";
+        case ParameterType::Integer:
+            return "an integer" + in_range;
+        case ParameterType::Real:
+            return "a number" + in_range +
+                   (parameter.choices.empty() ? "" : ", or " + joined(parameter.choices));
+        case ParameterType::Choice:
+            return "one of " + joined(parameter.choices);
+        case ParameterType::Point:
+            return "three numbers x,y,z" + in_range +
+                   (parameter.choices.empty() ? "" : ", or " + joined(parameter.choices));
+        case ParameterType::List:
+            return "numbers separated by commas" + in_range;
+        case ParameterType::Records:
+            return "records as JSON, " + range_text(parameter) +
+                   ", or the values of their fields one after the other, separated by commas";
+        case ParameterType::Text:
+            return wanted_text(parameter);
+        case ParameterType::File:
+            return "a file name";
+    }
+    return "";
 }
 
 Value checked_value(const Parameter& parameter, const Value& value) {

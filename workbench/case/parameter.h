@@ -76,6 +76,9 @@ struct Parameter {
 [[nodiscard]] bool holds(const Condition& condition, const Parameter& parameter,
                          const std::string& text);
 
+/// What its value may be: "a number (0 to 1 mm)".
+[[nodiscard]] std::string allowed_text(const Parameter& parameter);
+
 /// The value in the parameter's type: an integer is accepted as a real number, three numbers as a
 /// point, a text is parsed. Records are also read from the values of all their fields, one after
 /// the other, as numbers or as texts between commas and colons: x,y,z of a point, and the name or

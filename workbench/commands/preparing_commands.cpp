@@ -106,8 +106,9 @@ void add_prepare(CommandLine& line) {
         ->type_name(joined(purpose_names(), "|"));
     command.add_option("--recipe", options->recipe, "JSON list of operations to use instead")
         ->type_name("FILE");
-    command.add_flag("--resume", options->resume,
-                     "Go on in the folder's project with the edits of the recipe that are missing");
+    command.add_flag(
+        "--resume", options->resume,
+        "Continue in the folder's project with the edits of the recipe that are missing");
     add_settings(command, options->settings);
     add_end_options(command, options->ends);
     add_names(command, options->author, options->name);

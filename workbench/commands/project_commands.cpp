@@ -64,8 +64,8 @@ void add_change_and_remove(CommandLine& line) {
     change.add_option("--note", changed->note, "Reason, in your own words (default: as it was)")
         ->type_name("WORDS");
     change.add_flag("--anew", changed->anew,
-                    "Later edits choose again what they chose by themselves: openings, planes,\n"
-                    "sizes (another unit of the model does this always)");
+                    "Later edits choose again what they chose automatically: openings, planes,\n"
+                    "sizes (changing the model's unit always does this)");
     add_json(change, changed->json, "Print the edit as one JSON document");
     change.footer(kChangeFooter);
     const auto removed = std::make_shared<RemoveOptions>();

@@ -4,7 +4,7 @@
 
 #include "geometry/formats/image_formats.h"
 #include "geometry/formats/surface_formats.h"
-#include "geometry/kernel/errors.h"
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/wording.h"
 #include "meshing/products/product_formats.h"
 #include "workbench/case/near_names.h"
@@ -15,7 +15,8 @@ namespace {
 
 const VolumeMesh& volume_mesh_of(const Scene& scene) {
     if (!scene.volume_mesh)
-        throw AlgorithmFailure("there is no volume mesh in this variant: use tetrahedralize first");
+        throw DiagnosedFailure(
+            {.code = "no-volume-mesh", .remedies = {{.operation = "tetrahedralize"}}});
     return *scene.volume_mesh;
 }
 

@@ -23,7 +23,10 @@ Region region_from(const Arguments& arguments) {
     const bool box = arguments.has("box");
     const bool sphere = arguments.has("centre") || arguments.has("radius");
     if (box == sphere)
-        throw UsageError("crop: give either box=x0,y0,z0,x1,y1,z1 or centre=x,y,z with radius=");
+        throw DiagnosedUsage(
+            {.code = "no-crop-region",
+             .operation = "crop",
+             .remedies = {{.arguments = {{"box", ""}}}, {.arguments = {{"centre", ""}}}}});
     if (box) {
         const auto& numbers = arguments.list("box");
         if (numbers.size() != 6)

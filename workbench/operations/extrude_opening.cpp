@@ -18,6 +18,12 @@ namespace {
 
 using nlohmann::ordered_json;
 
+[[noreturn]] void refuse_without_openings() {
+    throw DiagnosedFailure({.code = "no-openings",
+                            .operation = "extrude-opening",
+                            .remedies = {{.operation = "clip-opening"}}});
+}
+
 std::size_t patch_named(const Surface& surface, const std::string& name) {
     std::string known;
     for (std::size_t p = 0; p < surface.patches.size(); ++p) {
@@ -26,8 +32,11 @@ std::size_t patch_named(const Surface& surface, const std::string& name) {
         if (patch.name == name) return p;
         known += (known.empty() ? "" : ", ") + patch.name;
     }
-    throw AlgorithmFailure("extrude-opening: there is no opening '" + name + "' (" +
-                           (known.empty() ? "make openings first: clip-opening" : known) + ")");
+    if (known.empty()) refuse_without_openings();
+    throw DiagnosedFailure({.code = "no-such-opening",
+                            .operation = "extrude-opening",
+                            .words = {{"opening", name}, {"known", known}},
+                            .remedies = {{.arguments = {{"opening", ""}}}}});
 }
 
 std::vector<std::string> chosen_openings(const Surface& surface, const Arguments& arguments) {
@@ -40,10 +49,7 @@ std::vector<std::string> chosen_openings(const Surface& surface, const Arguments
             if (patch.kind == PatchKind::Inlet || patch.kind == PatchKind::Outlet)
                 names.push_back(patch.name);
     }
-    if (names.empty())
-        throw DiagnosedFailure({.code = "no-openings",
-                                .operation = "extrude-opening",
-                                .remedies = {{.operation = "clip-opening"}}});
+    if (names.empty()) refuse_without_openings();
     return names;
 }
 

@@ -6,6 +6,7 @@
 
 #include "geometry/formats/image_file.h"
 #include "geometry/image/threshold.h"
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "workbench/case/point_json.h"
 #include "workbench/operations/table.h"
@@ -66,9 +67,9 @@ Image usable_mask(const Image& mask, Outcome& outcome) {
     const bool wants_iso = resolved.has("mask_iso") || resolved.has("mask_inside");
     if (judgement.kind == ImageKind::Labels && !wants_iso) return mask;
     if (judgement.kind == ImageKind::Intensity && !resolved.has("mask_iso"))
-        throw InvalidInput(
-            "the mask holds neither labels nor a level set: give the value that bounds its inside "
-            "with mask_iso=");
+        throw DiagnosedInput({.code = "mask-of-intensities",
+                              .operation = "load-image",
+                              .remedies = {{.arguments = {{"mask_iso", ""}}}}});
     if (!wants_iso)
         outcome.warnings.push_back(
             {.code = "mask-not-labels", .words = {{"reason", judgement.reason}}});

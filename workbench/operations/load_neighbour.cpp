@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/image/extract_surface.h"
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
 #include "workbench/operations/shared/surface_argument.h"
@@ -15,7 +16,9 @@ namespace {
 Surface surface_of_labels(const Scene& scene, const Arguments& arguments,
                           const Progress& progress) {
     if (!scene.image)
-        throw AlgorithmFailure("load-neighbour: labels need a label map or a mask: use load-image");
+        throw DiagnosedFailure({.code = "labels-without-image",
+                                .operation = "load-neighbour",
+                                .remedies = {{.operation = "load-image"}}});
     ExtractionParameters parameters{.method = ExtractionMethod::Labels,
                                     .mask_surface = arguments.text("mask_surface") == "smooth"
                                                         ? MaskSurface::Smooth
@@ -31,12 +34,15 @@ Surface surface_of_labels(const Scene& scene, const Arguments& arguments,
 
 Outcome load(const Scene& scene, const Arguments& arguments, Progress& progress) {
     if (arguments.has("file") == arguments.has("labels"))
-        throw UsageError("load-neighbour: give either file= or labels=");
+        throw DiagnosedUsage(
+            {.code = "neighbour-without-source",
+             .operation = "load-neighbour",
+             .remedies = {{.arguments = {{"file", ""}}}, {.arguments = {{"labels", ""}}}}});
     const std::string& name = arguments.text("name");
     Outcome outcome{.scene = scene, .resolved = arguments};
     Surface neighbour = arguments.has("file") ? read_surface_argument(arguments, outcome).surface
                                               : surface_of_labels(scene, arguments, progress);
-    if (neighbour.empty()) throw InvalidInput("load-neighbour: the surface has no triangles");
+    if (neighbour.empty()) throw InvalidInput("the neighbour's surface has no triangles");
     outcome.report = std::make_shared<nlohmann::ordered_json>(
         nlohmann::ordered_json{{"name", name},
                                {"vertices", neighbour.vertex_count()},
@@ -67,7 +73,7 @@ Operation load_neighbour_operation() {
                            {.name = "mask_surface",
                             .type = Choice,
                             .default_value = "smooth",
-                            .help = "surface of labels, as in extract-surface",
+                            .help = "surface of labels, as when one is extracted from an image",
                             .choices = {"smooth", "midway"},
                             .only_with = Condition{"labels"}},
                            units_parameter()},

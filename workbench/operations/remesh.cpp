@@ -251,7 +251,7 @@ std::vector<Parameter> other_parameters() {
          .default_value = 0.0,
          .help = "a print needs no triangles for less deviation than this: unless edge is given, "
                  "edges are as long as it allows, at most 0.7 of the radius; 0: no print; "
-                 "prepare --for rp uses 0.1",
+                 "models for printing use 0.1",
          .minimum = 0.0,
          .maximum = 10.0,
          .only_with = when_graded(),

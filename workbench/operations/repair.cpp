@@ -207,7 +207,7 @@ Operation repair_operation() {
               .type = Flag,
               .default_value = true,
               .help = "of a surface from a file, find the flat caps that close its vessels: "
-                      "clip-opening keeps them as openings"}},
+                      "they can then be kept as openings"}},
         .run = &run,
         .isolated = true,
         .thesis = "3.2",

@@ -189,16 +189,16 @@ std::vector<Parameter> parameter_table() {
          .type = ParameterType::Flag,
          .default_value = false,
          .help = "add vertex attributes to the surface: smoothing_weight, staircase_weight, "
-                 "staircase, cap, neighbour_distance, local_error, mean_curvature; export writes "
-                 "them to VTP and PLY, picture --colour shows them",
+                 "staircase, cap, neighbour_distance, local_error, mean_curvature; VTP and "
+                 "PLY files keep them, and pictures can show them",
          .use = Use::Rare});
     table.push_back(
         {.name = "keep_unsmoothed",
          .type = ParameterType::Flag,
          .default_value = false,
          .help = "add vertex attributes to the surface: unsmoothed_x, unsmoothed_y and "
-                 "unsmoothed_z, the places before; on coarse triangles, clip-opening measures the "
-                 "directions of vessels there, and drops them when it has opened all ends",
+                 "unsmoothed_z, the places before; on coarse triangles, the directions of vessels "
+                 "are measured there, and they are dropped when all ends have been opened",
          .use = Use::Rare});
     table.push_back(
         {.name = "device",

@@ -241,7 +241,7 @@ void write_refusal(const PrepareOptions& options, const DiagnosedFailure& failur
         refusal_json(options, failure, remaining_results(options.out, names, earlier));
     write_file(options.out / names.front(), text_from_json(printable_json(report), 2) + "\n");
     tell(std::string("the completed edits are kept in ") + kProject +
-         "; report.json has what was found; --resume goes on there, also after an edit by hand");
+         "; report.json lists what was found; --resume continues there, also after a manual edit");
 }
 
 /// \throw AlgorithmFailure if the project's file cannot be made whole
@@ -332,8 +332,8 @@ PrepareSummary prepare(const PrepareOptions& options, const Teller& tell,
             session.discard();
         else
             tell("the completed edits are kept in " + project.filename().string() +
-                 "; the results were not written; --resume goes on there, also after an edit by "
-                 "hand");
+                 "; the results were not written; --resume continues there, also after a manual "
+                 "edit");
         throw;
     }
 }

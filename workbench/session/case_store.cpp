@@ -175,15 +175,17 @@ std::shared_ptr<const Snapshot> CaseStore::snapshot() {
     std::vector<ResultId> results;
     for (const HistoryEntry& entry : entries) {
         edits.push_back(entry.edit);
-        if (entry.status == EditStatus::Done) results.push_back(entry.result);
+        if (entry.status != EditStatus::Pending) results.push_back(entry.result);
     }
     remember(std::move(edits), std::move(results));
     auto made = std::make_shared<Snapshot>();
     made->history = history_;
-    for (const HistoryEntry& entry : entries)
-        made->log.push_back(
-            {edits_.at(entry.edit), entry.status, entry.reason,
-             entry.status == EditStatus::Done ? records_.at(entry.result) : nullptr});
+    for (const HistoryEntry& entry : entries) {
+        LogEntry& row = made->log.emplace_back(
+            LogEntry{edits_.at(entry.edit), entry.status, entry.reason, nullptr});
+        if (entry.status == EditStatus::Done) row.result = records_.at(entry.result);
+        if (entry.status == EditStatus::Stale) row.refusal = records_.at(entry.result)->warnings;
+    }
     renew_past();
     made->past = past_;
     made->scenes = scenes_at_hand();

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "geometry/kernel/diagnosed_error.h"
 #include "workbench/case/version.h"
 #include "workbench/project/source_files.h"
 #include "workbench/project/stored_text.h"
@@ -14,6 +15,13 @@
 namespace vesselbench {
 
 namespace {
+
+/// Diagnostics with the operation that they are about.
+std::vector<Diagnostic> about(const std::string& operation, std::vector<Diagnostic> diagnostics) {
+    for (Diagnostic& diagnostic : diagnostics)
+        if (diagnostic.operation.empty()) diagnostic.operation = operation;
+    return diagnostics;
+}
 
 void stamp(ResultRecord& record) {
     record.time = utc_now();
@@ -36,9 +44,7 @@ EditRun edit_run(const Operation& operation, Scene input, Outcome outcome, doubl
     EditRun run;
     ResultRecord& record = run.record;
     record.resolved = without_folders(operation, outcome.resolved);
-    record.warnings = std::move(outcome.warnings);
-    for (Diagnostic& warning : record.warnings)
-        if (warning.operation.empty()) warning.operation = operation.name;
+    record.warnings = about(operation.name, std::move(outcome.warnings));
     if (outcome.report) record.report = stored_text(*outcome.report);
     record.change = surface_change(input, outcome.scene, progress);
     record.duration = duration;
@@ -49,9 +55,10 @@ EditRun edit_run(const Operation& operation, Scene input, Outcome outcome, doubl
     return run;
 }
 
-EditRun stale_run(Scene input, const std::string& reason) {
+EditRun stale_run(Scene input, const std::string& operation, const std::exception& error) {
     EditRun run;
-    run.record.stale_reason = reason;
+    run.record.stale_reason = error.what();
+    run.record.warnings = about(operation, diagnostics_of(error));
     run.record.device = "cpu";
     stamp(run.record);
     run.input = std::move(input);

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <exception>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "workbench/case/edit_record.h"
@@ -35,8 +37,10 @@ struct EvaluatedLine {
 [[nodiscard]] EditRun edit_run(const Operation& operation, Scene input, Outcome outcome,
                                double duration, const Progress& progress);
 
-/// Why a pending edit no longer applies to its input.
-[[nodiscard]] EditRun stale_run(Scene input, const std::string& reason);
+/// A pending edit that no longer applies to its input, with the error as the record's reason.
+/// \param operation the edit's
+[[nodiscard]] EditRun stale_run(Scene input, const std::string& operation,
+                                const std::exception& error);
 
 /// The current time, UTC, 2024-05-17T09:30:00Z.
 [[nodiscard]] std::string utc_now();

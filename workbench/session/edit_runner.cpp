@@ -163,11 +163,11 @@ EditRun EditRunner::run_pending(EditRef ref, Scene input, const Progress& progre
         if (record->stale_reason.empty()) note_difference(done.record, operation, record->change);
         return done;
     } catch (const AlgorithmFailure& error) {
-        return stale_run(std::move(input), error.what());
+        return stale_run(std::move(input), edit.operation, error);
     } catch (const InvalidInput& error) {
-        return stale_run(std::move(input), error.what());
+        return stale_run(std::move(input), edit.operation, error);
     } catch (const UsageError& error) {
-        return stale_run(std::move(input), error.what());
+        return stale_run(std::move(input), edit.operation, error);
     }
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/kernel/diagnostic.h"
 #include "workbench/case/edit_record.h"
 #include "workbench/case/history.h"
 #include "workbench/case/scene.h"
@@ -17,6 +18,8 @@ struct LogEntry {
     EditStatus status = EditStatus::Pending;
     std::string reason;                          ///< of a stale edit
     std::shared_ptr<const ResultRecord> result;  ///< of a done edit; else null
+    /// Of a stale edit: the errors that the reason words; empty in projects of old versions.
+    std::vector<Diagnostic> refusal = {};
 };
 
 /// One revision of an edit that some state contains, or contained.

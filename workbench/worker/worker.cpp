@@ -269,13 +269,18 @@ bool follow(int descriptor, const Progress& progress, Clock::time_point deadline
     return false;
 }
 
+/// What may make a surface usable on which an operation breaks.
+constexpr const char* kRepair = "repair";
+
 [[noreturn]] void throw_broken(const Operation& operation, const Arguments& arguments,
                                const std::string& what) {
     if (const auto file = file_read_by(operation, arguments))
         throw InvalidInput(operation.name + " " + what + " while reading " + *file +
                            ": the file is probably damaged; the project is unchanged");
-    throw AlgorithmFailure(operation.name + " " + what +
-                           "; the project is unchanged. Try other parameters, or repair first");
+    Diagnostic broken{
+        .code = "operation-broke", .operation = operation.name, .words = {{"what", what}}};
+    if (operation.name != kRepair) broken.remedies = {{.operation = kRepair}};
+    throw DiagnosedFailure(std::move(broken));
 }
 
 /// Of the classes that may have diagnostics. \param diagnostics empty: it has none

@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/disjoint_sets.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/surface_key.h"
@@ -257,7 +258,7 @@ Lines find_lines(const Surface& surface, const CenterlineParameters& parameters,
     check(parameters);
     const VesselWall wall = vessel_wall_of(surface, progress);
     if (!(wall.volume > 0.0)) {
-        throw InvalidInput("the surface encloses no lumen: check units and orientation");
+        throw DiagnosedInput({.code = "no-lumen", .remedies = {{.operation = "repair"}}});
     }
     const double thin = thin_radius(wall, kThinFraction);
     double spacing = first_spacing(wall, thin);
@@ -269,11 +270,9 @@ Lines find_lines(const Surface& surface, const CenterlineParameters& parameters,
         const bool false_loops = wall.handles >= 0 && attempt.loops > wall.handles;
         if (!lost && !false_loops) break;
     }
-    if (attempt.rough.graph.branches.empty()) {
-        throw AlgorithmFailure(
-            "no centerline found: the lumen is thinner than the search grid, or not closed; repair "
-            "the surface, or crop it to the vessels of interest");
-    }
+    if (attempt.rough.graph.branches.empty())
+        throw DiagnosedFailure({.code = "no-centerline",
+                                .remedies = {{.operation = "repair"}, {.operation = "crop"}}});
     const WallSections sections(wall, 0.5 * thin);
     return {refine(attempt.rough, sections, parameters.spacing, progress.part(0.6, 1.0)),
             std::move(attempt.stubs)};
@@ -301,7 +300,7 @@ std::size_t bytes_of(const Lines& lines) {
 std::shared_ptr<const Lines> lines_of(const Surface& surface,
                                       const CenterlineParameters& parameters,
                                       const Progress& progress, DerivedCache& cache) {
-    if (surface.empty()) throw InvalidInput("the surface is empty; load or extract one first");
+    if (surface.empty()) throw InvalidInput("the surface is empty");
     return cache.find_or_make<Lines>(
         "centerlines", content_key({surface_key(surface, cache), key_of(parameters)}),
         [&] { return find_lines(surface, parameters, progress); }, &bytes_of, progress);

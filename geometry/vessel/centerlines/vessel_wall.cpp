@@ -8,6 +8,7 @@
 
 #include "geometry/kernel/disjoint_sets.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/finite_positions.h"
 #include "geometry/vessel/centerlines/flat_closures.h"
 
 namespace vesselbench {
@@ -159,22 +160,17 @@ void measure(VesselWall& wall) {
 }  // namespace
 
 VesselWall vessel_wall_of(const Surface& surface, const Progress& progress) {
-    if (surface.empty()) throw InvalidInput("the surface is empty; load or extract one first");
+    if (surface.empty()) throw InvalidInput("the surface is empty");
     VesselWall wall;
     wall.points = surface.points();
-    for (std::size_t v = 0; v < wall.points.size(); ++v) {
-        if (!wall.points[v].allFinite()) {
-            throw InvalidInput("vertex " + std::to_string(v) +
-                               " of the surface has a coordinate that is not finite; repair it");
-        }
-    }
+    require_finite(wall.points);
     for (const auto& loop : surface.topology->boundary_loops()) close_loop(loop, wall);
     collect_patches(surface, wall);
     measure(wall);
     if (!(wall.area > 0.0)) {
         throw InvalidInput("the surface has no wall; all of its triangles are flat closures");
     }
-    progress.report(0.0, "looking at the wall");
+    progress.report(0.0, "analysing the wall");
     judge_connectivity(wall, progress);
     progress.check_cancelled();
     wall.distance = std::make_shared<const SurfaceDistance>(distance_to(wall.points, wall.closed));

@@ -4,8 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/kernel/errors.h"
-#include "geometry/kernel/wording.h"
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
 #include "geometry/vessel/centerlines/lines_to_tip.h"
 #include "geometry/vessel/openings/remove_branch.h"
@@ -43,7 +42,7 @@ Surface chosen_part(const Surface& surface, const std::vector<std::uint8_t>& cho
 NamedBranch branch_at_tip(const Surface& surface, const Vec3& point, const Progress& progress) {
     auto graph = lines_to_tip(surface, point, kOwnLineBeyond, progress);
     const auto tip = tip_near(*graph, point);
-    if (!tip) throw AlgorithmFailure("no branch has its tip near " + place_text(point));
+    if (!tip) throw DiagnosedFailure({.code = "no-branch-at-tip", .place = point});
     return {std::move(graph), *tip};
 }
 

@@ -33,9 +33,13 @@ OpenedSurface cut_branch(const Surface& surface, const Plane& plane) {
         clean_rim(opened.surface, opened.rim);
         return opened;
     }
-    throw DiagnosedFailure({.code = separates ? "cut-without-rim" : "cut-in-loop",
+    if (!separates)
+        throw DiagnosedFailure(
+            {.code = "cut-in-loop", .operation = "clip-opening", .place = plane.point});
+    throw DiagnosedFailure({.code = "cut-without-rim",
                             .operation = "clip-opening",
-                            .place = plane.point});
+                            .place = plane.point,
+                            .remedies = {{.operation = "repair"}}});
 }
 
 void cap_rim(OpenedSurface& opened, const Plane& plane, const Patch& patch) {

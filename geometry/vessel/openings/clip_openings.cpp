@@ -8,6 +8,7 @@
 #include "geometry/editing/hole_filling.h"
 #include "geometry/editing/plane_cut.h"
 #include "geometry/editing/rims.h"
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
@@ -53,6 +54,13 @@ std::vector<VertexId> rim_at(const Surface& surface, const Vec3& point) {
     return best;
 }
 
+/// \param code of one that needs no figures
+Diagnostic cut_problem(const char* code, const Plane& plane) {
+    Diagnostic problem{.code = code, .place = plane.point};
+    if (problem.code == "cut-without-rim") problem.remedies = {{.operation = "repair"}};
+    return problem;
+}
+
 /// Makes the cuts of a plan one after the other on one editable surface. A cut is made as if the
 /// surface were read back in between, but it is only where an earlier cut touched the same
 /// triangles.
@@ -67,9 +75,9 @@ public:
         tries_.assign(openings_.size(), 0);
         while (!pass()) progress_.check_cancelled();
         for (std::size_t i = 0; i < openings_.size(); ++i)
-            if (!problems_[i].empty())
+            if (problems_[i])
                 failed.push_back(
-                    {openings_[i].place.tip, openings_[i].place.plane.point, problems_[i]});
+                    {openings_[i].place.tip, openings_[i].place.plane.point, *problems_[i]});
         return base_.empty() ? surface_ : base_;
     }
 
@@ -104,26 +112,17 @@ private:
         }
         if (!curve || !curve->closed)
             return fail(i, kTries,
-                        "the clipping plane at " + place_text(plane.point) +
-                            (curve ? " meets an open border: clip farther away from the tip"
-                                   : " does not meet the surface: give the distance from the tip"));
+                        cut_problem(curve ? "plane-meets-border" : "plane-misses-surface", plane));
         const auto near = tries_[i] == 0 ? NearVertices::MoveOntoPlane : NearVertices::Stay;
         PlaneCut made = cut_along(edited, plane, *curve, near);
-        if (made.rim.empty())
-            return fail(i, tries_[i] + 1,
-                        "the cut at " + place_text(plane.point) +
-                            " has no simple rim: repair the surface there, or clip elsewhere");
+        if (made.rim.empty()) return fail(i, tries_[i] + 1, cut_problem("cut-without-rim", plane));
         const auto branch = part_above(edited, made);
-        if (!branch)
-            return fail(i, tries_[i] + 1,
-                        "the cut at " + place_text(plane.point) +
-                            " does not separate the branch from the rest: the vessels form a loop "
-                            "there; clip one of the other branches as well, or choose another "
-                            "place");
+        if (!branch) return fail(i, tries_[i] + 1, cut_problem("cut-in-loop", plane));
         if (const double share = share_of(edited, *branch); share > kMostCutOff)
             return fail(i, kTries,
-                        "the cut at " + place_text(plane.point) +
-                            formatted(100.0 * share, " would take %.0f %% of the wall away"));
+                        {.code = "cut-takes-wall",
+                         .place = plane.point,
+                         .figures = {{"wall_percent", 100.0 * share}}});
         edited.remove(*branch);
         clean_rim(edited, made.rim);
         cap(edited, i, made.rim);
@@ -151,14 +150,14 @@ private:
             const std::uint16_t label = edited.add_patch({mark_of(i), PatchKind::Cut});
             close_flat(edited, rim, plane, mean_edge(edited, rim), label);
         } catch (const AlgorithmFailure& failure) {
-            fail(i, kTries, failure.what());
+            fail(i, kTries, diagnostics_of(failure).front());
         }
     }
 
     /// On a damaged surface a cut is never given up: the damage may be the reason.
-    void fail(std::size_t i, int tries, const std::string& why) {
+    void fail(std::size_t i, int tries, const Diagnostic& why) {
         if (damaged_ && tries == kTries) return;
-        problems_[i] = tries == kTries ? why : "";
+        problems_[i] = tries == kTries ? std::optional(why) : std::nullopt;
         tries_[i] = tries;
         damaged_ = true;
     }
@@ -178,9 +177,9 @@ private:
     const std::vector<PlannedOpening>& openings_;
     const Progress& progress_;
     Surface base_;
-    std::vector<int> tries_;             ///< by opening
-    std::vector<std::string> problems_;  ///< by opening
-    bool damaged_ = false;               ///< the pass has a cut that failed
+    std::vector<int> tries_;                           ///< by opening
+    std::vector<std::optional<Diagnostic>> problems_;  ///< by opening
+    bool damaged_ = false;                             ///< the pass has a cut that failed
 };
 
 class Clipper {
@@ -241,7 +240,7 @@ private:
                 const std::uint16_t label = edited->add_patch({mark_of(i), PatchKind::Cut});
                 close_flat(*edited, rim, plane, mean_edge(*edited, rim), label);
             } catch (const AlgorithmFailure& failure) {
-                failed.push_back({opening.place.tip, plane.point, failure.what()});
+                failed.push_back({opening.place.tip, plane.point, diagnostics_of(failure).front()});
             }
         }
         if (edited) result_ = edited->to_surface();
@@ -260,7 +259,8 @@ private:
                 try {
                     remove_stub(closing.place);
                 } catch (const AlgorithmFailure& failure) {
-                    failed.push_back({closing.place, closing.place, failure.what()});
+                    failed.push_back(
+                        {closing.place, closing.place, diagnostics_of(failure).front()});
                 }
                 return;
         }
@@ -311,8 +311,7 @@ private:
                 const PatchShape shape = patch_shape(result_, p);
                 if (shape.flatness > kKeptFlatness * shape.diameter())
                     failed.push_back({opening.place.tip, opening.place.plane.point,
-                                      "the cap at " + place_text(opening.place.plane.point) +
-                                          " is not flat after the cuts"});
+                                      cut_problem("cap-not-flat-after-cuts", opening.place.plane)});
             }
     }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "geometry/kernel/diagnostic_text.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
@@ -129,7 +130,7 @@ bool EndOpener::cut_elsewhere(std::size_t e) {
     };
     const std::string why = draft_.record(e).why;
     if (const auto place = nearest_opening_place(surface, graph, *end.tip, near))
-        return make_cut(e, *place, "cut at the nearest place that can be: " + why);
+        return make_cut(e, *place, "cut at the nearest possible place: " + why);
     const auto blind = blind_branch(graph, *end.tip);
     if (blind && blind->length < kLongestAcross * end.diameter)
         if (const auto place = place_across_furcation(surface, graph, *end.tip, free))
@@ -157,7 +158,7 @@ bool EndOpener::keep_oblique(std::size_t e) {
 bool EndOpener::is_free(const OpeningPlace& place, std::size_t e) {
     progress_.check_cancelled();
     if (const FailedCut* failed = failure_at(draft_, e, place.plane.point)) {
-        draft_.record(e).why = failed->why;
+        draft_.record(e).why = text_of(failed->why);
         return false;
     }
     if (draft_.options().tip && draft_.is_fixed()) return true;  // as the user says

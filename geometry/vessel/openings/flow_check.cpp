@@ -297,9 +297,9 @@ void check_flow(const OpeningPlan& plan, const Surface& surface, const Centerlin
                 const OpeningPlanOptions& options, const Progress& progress) {
     const FlowProblem problem = flow_problem(plan, options.accept_doubts);
     if (problem.code.empty()) return;
-    Advice advice{"accept_doubts", "true", "goes on with the likelier choice"};
+    Advice advice{"accept_doubts", "true", "continues with the likelier choice"};
     if (!problem.doubts) {
-        progress.report(0.0, "looking for a remedy");
+        progress.report(0.0, "finding a remedy");
         advice =
             WayOn(surface, graph, options, problem, progress.silent()).advice(plan.openings.size());
     }

@@ -256,10 +256,6 @@ private:
     Surface near_;
 };
 
-[[noreturn]] void fail(const Vec3& tip, const std::string& why) {
-    throw AlgorithmFailure("the branch with its tip at " + place_text(tip) + " " + why);
-}
-
 [[noreturn]] void fail_without_section(const Vec3& tip, bool side_branch) {
     Diagnostic found{.code = "no-whole-section", .place = tip};
     if (side_branch)
@@ -315,7 +311,10 @@ OpeningPlace place_by_itself(const BranchFromEnd& branch, const Vec3& tip) {
     }
     const auto best = std::ranges::find_if(
         found, [&](const auto& at) { return at.first <= least + kWorthMoving; });
-    if (best == found.end()) fail(tip, "has no closed section: give the distance from its tip");
+    if (best == found.end())
+        throw DiagnosedFailure({.code = "no-closed-section",
+                                .place = tip,
+                                .remedies = {{.arguments = {{"distance", ""}}}}});
     OpeningPlace& place = best->second;
     branch.refine(place, tube_from - place.distance);
     place.share = place.distance / branch.length;
@@ -345,11 +344,16 @@ OpeningPlace choose_opening_place(const Surface& surface, const CenterlineGraph&
     const BranchFromEnd branch(surface, graph, tip);
     if (!distance) return place_by_itself(branch, at);
     if (*distance > branch.length)
-        fail(at, "is only " + std::to_string(branch.length) + " mm long: choose a distance below");
+        throw DiagnosedFailure({.code = "distance-beyond-branch",
+                                .place = at,
+                                .figures = {{"length_mm", branch.length}},
+                                .remedies = {{.arguments = {{"distance", ""}}}}});
     const auto place = branch.place(*distance);
     if (!place)
-        fail(at, "has no closed section " + std::to_string(*distance) +
-                     " mm from its tip: choose another distance");
+        throw DiagnosedFailure({.code = "no-section-at-distance",
+                                .place = at,
+                                .figures = {{"distance_mm", *distance}},
+                                .remedies = {{.arguments = {{"distance", ""}}}}});
     return *place;
 }
 

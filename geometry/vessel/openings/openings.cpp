@@ -63,7 +63,7 @@ private:
 
     /// \throw Cancelled if the user cancels
     void report_decided() const {
-        progress_.report(draft_.decided_share(), "deciding about the ends");
+        progress_.report(draft_.decided_share(), "classifying the ends");
     }
 
     void plan_end(std::size_t e) {

@@ -80,7 +80,7 @@ struct OpeningPlan {
 struct FailedCut {
     Vec3 tip = Vec3::Zero();  ///< [mm]
     Vec3 place = Vec3::Zero();
-    std::string why;
+    Diagnostic why;
     bool lost = false;  ///< a vessel went with it: so it would from farther inside
 };
 

@@ -85,8 +85,8 @@ std::string end_problem(const PlanDraft& draft, std::size_t e) {
     }
     const RimShape rim = rim_shape(draft.surface(), end.rim);
     if (rim.rise_deg <= (end.tip ? kLeastRiseAtTip : kLeastRiseDeg))
-        return "its wall rises by " + formatted(rim.rise_deg, "%.0f degrees") +
-               " only from the rim's plane";
+        return "its wall rises by only " + formatted(rim.rise_deg, "%.0f degrees") +
+               " from the rim's plane";
     return "its rim is " + formatted(rim.flatness) + " mm off its plane";
 }
 

@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <vector>
 
 #include "geometry/editing/hole_filling.h"
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/edges.h"
-#include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
-#include "geometry/kernel/wording.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
 
 namespace vesselbench {
@@ -58,15 +56,16 @@ void require_lumen(const Surface& surface) {
     const double extent = bounds(surface).diagonal();
     const double radius = 2.0 * closed_volume(surface) / area(surface);
     if (!(extent < kSlimmest * radius))
-        throw InvalidInput("there is no vessel in it: the surface is a sheet, " +
-                           formatted(extent) + " mm wide and " + formatted(radius) +
-                           " mm thick on average, and encloses no lumen");
+        throw DiagnosedInput({.code = "surface-is-sheet",
+                              .figures = {{"width_mm", extent}, {"thickness_mm", radius}}});
     const auto loops = connectivity(*surface.topology).genus.value_or(0);
     if (loops > static_cast<int>(kMostLoops) &&
         static_cast<std::size_t>(loops) * kTrianglesPerLoop > surface.triangle_count())
-        throw InvalidInput(
-            "there is no vessel in it that can be distinguished from noise: the surface has " +
-            std::to_string(loops) + " loops; choose another threshold, or give a mask");
+        throw DiagnosedInput(
+            {.code = "vessel-within-noise",
+             .figures = {{"loops", static_cast<double>(loops)}},
+             .remedies = {{.operation = "extract-surface", .arguments = {{"threshold", ""}}},
+                          {.operation = "load-image", .arguments = {{"mask", ""}}}}});
 }
 
 bool has_tube(const CenterlineGraph& graph) {

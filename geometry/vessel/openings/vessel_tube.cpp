@@ -4,11 +4,9 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <string>
 #include <utility>
 
-#include "geometry/kernel/errors.h"
-#include "geometry/kernel/wording.h"
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
 
 namespace vesselbench {
@@ -268,9 +266,8 @@ BranchRoot branch_root(const CenterlineGraph& graph, std::size_t tip) {
     for (const std::size_t b : meeting)
         if (b != index) others.push_back(from_node(graph.branches[b], node));
     if (others.size() < 2)
-        throw AlgorithmFailure("the vessel with its tip at " +
-                               place_text(graph.nodes[tip].position) +
-                               " has no parent vessel: nothing would remain");
+        throw DiagnosedFailure(
+            {.code = "branch-without-parent", .place = graph.nodes[tip].position});
     const Line own = from_node(branch, node);
     const Mouth mouth = mouth_of(own, others, graph.nodes[node].radius);
     BranchRoot root{.branch = index,

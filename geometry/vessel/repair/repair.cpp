@@ -3,10 +3,11 @@
 #include <algorithm>
 
 #include "geometry/editing/triangle_soup.h"
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/edges.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/finite_positions.h"
 #include "geometry/kernel/measure.h"
-#include "geometry/kernel/wording.h"
 #include "geometry/vessel/repair/sheets.h"
 #include "geometry/vessel/repair/slivers.h"
 #include "geometry/vessel/repair/soup.h"
@@ -23,11 +24,8 @@ constexpr int kMostClosings = 5;  ///< closing holes at a shared vertex may reve
 constexpr double kMostLost = 0.05;
 
 void check_input(const Surface& surface) {
-    if (surface.empty()) throw InvalidInput("the surface has no triangles: nothing to repair");
-    for (VertexId v = 0; v < surface.vertex_count(); ++v)
-        if (!surface.points()[v].allFinite())
-            throw InvalidInput("vertex " + std::to_string(v) +
-                               " has a coordinate that is not finite: export the surface again");
+    if (surface.empty()) throw InvalidInput("the surface has no triangles");
+    require_finite(surface.points());
 }
 
 /// Manifold, one component, stray holes closed.
@@ -56,22 +54,20 @@ void note_intersections(const TriangleSoup& mesh, const std::vector<TrianglePair
 }
 
 [[noreturn]] void fail_tangled(const TriangleSoup& mesh, const std::vector<TrianglePair>& pairs) {
-    throw AlgorithmFailure(
-        std::to_string(pairs.size()) + " self-intersections could not be removed, one near " +
-        place_text(centroid(mesh, mesh.triangles[pairs.front().first])) +
-        "; cut that place away (remove-branch, clip-opening), or rebuild the surface from its "
-        "image");
+    throw DiagnosedFailure(
+        {.code = "self-intersections-left",
+         .place = centroid(mesh, mesh.triangles[pairs.front().first]),
+         .figures = {{"self_intersections", static_cast<double>(pairs.size())}},
+         .remedies = {{.operation = "remove-branch"}, {.operation = "clip-opening"}}});
 }
 
 /// Bodies that pass through each other fall apart when the intersection is cut out: never silently.
 void check_nothing_lost(const TriangleSoup& mesh, double area_before, const Vec3& place) {
     const double lost = 1.0 - area_of(mesh) / area_before;
     if (lost > kMostLost)
-        throw AlgorithmFailure(
-            "parts of the surface pass through each other near " + place_text(place) +
-            "; removing that would lose " + std::to_string(static_cast<int>(100.0 * lost)) +
-            " % of the area: separate or unite these parts first, or rebuild the surface from its "
-            "image");
+        throw DiagnosedFailure({.code = "parts-pass-through-each-other",
+                                .place = place,
+                                .figures = {{"area_percent", 100.0 * lost}}});
 }
 
 void untangle_all(TriangleSoup& mesh, const RepairParameters& parameters, const Progress& progress,
@@ -99,9 +95,10 @@ void check_result(const TriangleSoup& mesh) {
                         : !defects.inconsistent_edges.empty()
                             ? defects.inconsistent_edges[0][0]
                             : mesh.triangles[defects.degenerate[0]][0];
-    throw AlgorithmFailure("a place near " + place_text(mesh.points[at]) +
-                           " stays non-manifold: cut it away, or rebuild the surface from its "
-                           "image");
+    throw DiagnosedFailure(
+        {.code = "still-not-manifold",
+         .place = mesh.points[at],
+         .remedies = {{.operation = "remove-branch"}, {.operation = "clip-opening"}}});
 }
 
 }  // namespace
@@ -116,7 +113,7 @@ Repaired repair(const Surface& surface, const RepairParameters& parameters,
     remove_degenerate_and_duplicate(mesh, report);
     if (mesh.triangles.empty())
         throw InvalidInput("all triangles are degenerate: there is no surface");
-    progress.report(0.2, "mending connectivity");
+    progress.report(0.2, "repairing connectivity");
     restore_manifold(mesh, parameters, report);
     if (mesh.triangles.empty())
         throw InvalidInput("all triangles are degenerate: there is no surface");

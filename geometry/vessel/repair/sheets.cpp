@@ -6,11 +6,11 @@
 #include <map>
 #include <numbers>
 
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/disjoint_sets.h"
 #include "geometry/kernel/edges.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
-#include "geometry/kernel/wording.h"
 #include "geometry/vessel/repair/soup.h"
 
 namespace vesselbench {
@@ -162,11 +162,9 @@ bool cut_contradictions(TriangleSoup& mesh, const std::vector<std::uint8_t>& mar
             for (const VertexId v : mesh.triangles[t]) mesh.marks[v] = 1;
         }
     if (static_cast<double>(count) > kMostContradictions * static_cast<double>(marked.size()))
-        throw AlgorithmFailure(
-            "the surface has no inner and outer side (like a Moebius strip): orientations "
-            "contradict each other at " +
-            counted(count, "triangle") + ", one near " + place_text(place) +
-            "; cut the band there or export the surface again");
+        throw DiagnosedFailure({.code = "surface-one-sided",
+                                .place = place,
+                                .figures = {{"triangles", static_cast<double>(count)}}});
     mesh.remove_triangles(marked);
     return true;
 }

@@ -6,8 +6,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/edges.h"
-#include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/piece_shape.h"
 #include "geometry/kernel/point_welder.h"
@@ -93,11 +93,9 @@ std::vector<Part> parts_by_area(const TriangleSoup& mesh, const Components& part
 
 void check_main_part(const std::vector<Part>& order, double whole) {
     if (order[0].area >= kSmallestMainPart * whole) return;
-    throw AlgorithmFailure(
-        "the triangles fall into " + std::to_string(order.size()) +
-        " unconnected pieces, the largest of which has only " +
-        std::to_string(static_cast<int>(std::lround(100.0 * order[0].area / whole))) +
-        " % of the area: this is not a connected surface; export it again with shared points");
+    throw DiagnosedFailure({.code = "surface-not-connected",
+                            .figures = {{"pieces", static_cast<double>(order.size())},
+                                        {"area_percent", 100.0 * order[0].area / whole}}});
 }
 
 /// True if a part lies inside another one, whichever way that one faces.

@@ -6,6 +6,7 @@
 
 #include "geometry/kernel/cross_section.h"
 #include "geometry/kernel/diagnosed_error.h"
+#include "geometry/kernel/diagnostic_text.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/ends/stub_lines.h"
@@ -89,13 +90,13 @@ void require_tube(const Surface& surface, const CenterlineGraph& graph) {
 }
 
 [[noreturn]] void give_up(const FailedCut& failed, const OpeningPlanOptions& options) {
-    if (options.tip) throw AlgorithmFailure(failed.why);
+    if (options.tip) throw DiagnosedFailure(failed.why);
     Positions closed = options.closed;
     closed.push_back(failed.tip);
     throw DiagnosedFailure({.code = "end-not-cut",
                             .operation = "clip-opening",
                             .place = failed.tip,
-                            .words = {{"why", failed.why}},
+                            .words = {{"why", text_of(failed.why)}},
                             .remedies = {closing_remedy(closed)}});
 }
 
@@ -136,7 +137,7 @@ void name_by_numbers(const Surface& surface, const Arguments& arguments,
             if (end == plan.ends.end())
                 throw UsageError("clip-opening: " + std::string(parameter.numbers) +
                                  ": there is no end " + formatted(number) +
-                                 "; vesselbench ends lists them");
+                                 ": the list of ends has their numbers");
             (options.*parameter.into).push_back(end->place);
         }
     }
@@ -257,7 +258,7 @@ Clipping repeat_openings(const Surface& surface, const Arguments& arguments,
                              : std::shared_ptr<const CenterlineGraph>();
     ClippedSurface clipped =
         clip_openings(surface, made.plan, {}, graph.get(), progress.part(0.7, 1.0));
-    if (!clipped.failed.empty()) throw AlgorithmFailure(clipped.failed.front().why);
+    if (!clipped.failed.empty()) throw DiagnosedFailure(clipped.failed.front().why);
     made.surface = with_inlets(clipped.surface, made.plan,
                                stored_inlets(made.plan, clipped.surface, arguments));
     return made;

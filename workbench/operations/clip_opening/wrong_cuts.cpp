@@ -4,9 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/kernel/errors.h"
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/measure.h"
-#include "geometry/kernel/wording.h"
 #include "geometry/vessel/openings/lost_vessels.h"
 #include "geometry/vessel/openings/opening_axis.h"
 
@@ -17,10 +16,11 @@ namespace {
 /// The place of a plan that has to go so that a vessel stays: its stub, or the cut next to it.
 /// \throw AlgorithmFailure if there is neither
 FailedCut cut_that_lost(const OpeningPlan& plan, const LostVessel& lost) {
-    FailedCut failed{.why = "a cut there would lose " + formatted(lost.length, "%.1f") +
-                            " mm of vessel at " + place_text(lost.place) + ", " +
-                            formatted(lost.diameter) + " mm wide",
-                     .lost = true};
+    FailedCut failed{
+        .why = {.code = "cut-loses-vessel",
+                .place = lost.place,
+                .figures = {{"length_mm", lost.length}, {"diameter_mm", lost.diameter}}},
+        .lost = true};
     for (const PlannedClosing& closing : plan.closings)
         if (closing.way == ClosingWay::RemoveStub &&
             (closing.place - lost.tip).norm() < 0.5 * lost.diameter) {
@@ -35,7 +35,7 @@ FailedCut cut_that_lost(const OpeningPlan& plan, const LostVessel& lost) {
         failed.tip = opening.place.tip;
         failed.place = opening.place.plane.point;
     }
-    if (std::isinf(least)) throw AlgorithmFailure(failed.why);
+    if (std::isinf(least)) throw DiagnosedFailure(failed.why);
     return failed;
 }
 
@@ -46,9 +46,9 @@ void require_most_kept(const Surface& before, const Surface& after) {
     if (!before.topology->boundary_loops().empty()) return;
     const double kept = std::abs(volume(after) / volume(before));
     if (kept < kLeastKept)
-        throw AlgorithmFailure("the cuts would take " + formatted(100.0 * (1.0 - kept), "%.0f") +
-                               " % of the model away: it is hardly a vessel; tip=x,y,z opens a "
-                               "single end");
+        throw DiagnosedFailure({.code = "cuts-take-model",
+                                .figures = {{"volume_percent", 100.0 * (1.0 - kept)}},
+                                .remedies = {{.arguments = {{"tip", ""}}}}});
 }
 
 std::vector<FailedCut> wrong_cuts(const Surface& before, const CenterlineGraph& vessels,
@@ -61,7 +61,7 @@ std::vector<FailedCut> wrong_cuts(const Surface& before, const CenterlineGraph& 
             plan.openings, {},
             [&](const PlannedOpening& o) { return (o.place.plane.point - at).norm(); });
         wrong.push_back({opening->place.tip, opening->place.plane.point,
-                         "the opening at " + place_text(at) + " would lie in a vessel's side"});
+                         Diagnostic{.code = "opening-would-lie-in-wall", .place = at}});
     }
     const std::vector<LostVessel> lost = lost_vessels(vessels, after);
     if (lost.empty() || !lost_vessels(vessels, before).empty()) return wrong;  // lines lie outside

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/kernel/errors.h"
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/statistics.h"
 #include "geometry/kernel/wording.h"
 #include "workbench/case/point_json.h"
@@ -33,10 +33,10 @@ StaircaseChoice decided_staircases(const Scene& scene, const std::string& operat
                                    ContextFinder& finder, Arguments& arguments) {
     auto choice = staircase_choice(scene, finder, arguments);
     if (!choice)
-        throw AlgorithmFailure(
-            operation +
-            ": the direction of the image stack is uncertain: the surface has no image and too few "
-            "staircases; give stack_axis=x,y,z, or staircase=false");
+        throw DiagnosedFailure({.code = "stack-axis-uncertain",
+                                .operation = operation,
+                                .remedies = {{.arguments = {{"stack_axis", ""}}},
+                                             {.arguments = {{"staircase", "false"}}}}});
     if (choice->axes_from != "argument") arguments.set("stack_axis", choice->axis_value());
     arguments.set("tau_theta", choice->tau_theta);
     arguments.set("tau_max", choice->tau_max);
@@ -78,9 +78,9 @@ std::vector<std::string> neighbour_names(const Scene& scene, const Arguments& ar
         for (const auto& [name, surface] : scene.neighbours) names.push_back(name);
     }
     if (names.empty())
-        throw AlgorithmFailure(
-            operation +
-            ": distance awareness needs a neighbour, but there is none: use load-neighbour");
+        throw DiagnosedFailure({.code = "no-neighbour",
+                                .operation = operation,
+                                .remedies = {{.operation = "load-neighbour"}}});
     return names;
 }
 
@@ -90,12 +90,19 @@ std::vector<Surface> neighbours_of(const Scene& scene, const std::vector<std::st
     for (const std::string& name : names) {
         const auto found = scene.neighbours.find(name);
         if (found == scene.neighbours.end())
-            throw AlgorithmFailure(operation + ": there is no neighbour '" + name +
-                                   "': use load-neighbour, or name others with neighbours=");
+            throw DiagnosedFailure(
+                {.code = "no-such-neighbour",
+                 .operation = operation,
+                 .words = {{"neighbour", name}},
+                 .remedies = {{.operation = "load-neighbour", .arguments = {{"name", name}}},
+                              {.arguments = {{"neighbours", ""}}}}});
         const Surface& surface = found->second;
         if (surface.empty())
-            throw AlgorithmFailure(operation + ": the neighbour '" + name +
-                                   "' has no triangles: load it again, or use distance=none");
+            throw DiagnosedFailure({.code = "neighbour-without-triangles",
+                                    .operation = operation,
+                                    .words = {{"neighbour", name}},
+                                    .remedies = {{.operation = "load-neighbour"},
+                                                 {.arguments = {{"distance", "none"}}}}});
         neighbours.push_back(surface);
     }
     return neighbours;
@@ -227,7 +234,7 @@ std::vector<Parameter> distance_parameter_table(const WeighedAction& action) {
         {.name = "distance",
          .type = Choice,
          .default_value = std::string("none"),
-         .help = "preserve the surface near the structures of load-neighbour; the nearest vertex "
+         .help = "preserve the surface near the neighbouring structures; the nearest vertex "
                  "gets no " +
                  action.doing +
                  ", the farthest vertex all of it; in between it grows linearly (linear), linearly "
@@ -264,9 +271,8 @@ std::vector<Parameter> distance_parameter_table(const WeighedAction& action) {
          .only_with = Condition{"distance", {"exponential"}}},
         {.name = "painted",
          .type = Text,
-         .help =
-             "name of a vertex attribute in [0, 1], as painted by brush-weight: vertices of 0 " +
-             action.kept + ", 1 " + action.painted_one,
+         .help = "name of a vertex attribute in [0, 1], as a brush paints it: vertices of 0 " +
+                 action.kept + ", 1 " + action.painted_one,
          .meaning = Meaning::Name}};
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/wording.h"
@@ -192,9 +193,8 @@ std::optional<StaircaseChoice> staircase_choice(const Scene& scene, ContextFinde
     const Voxels voxels = voxels_of(scene, finder);
     const bool asked_for_all = asks_for_all(arguments);
     if (asked_for_all && !voxels.grid)
-        throw AlgorithmFailure(
-            "stack_axis=all needs the axes of the voxels, but the surface has no image, and its "
-            "triangles do not show them; give one axis, stack_axis=x,y,z");
+        throw DiagnosedFailure(
+            {.code = "voxel-axes-unknown", .remedies = {{.arguments = {{"stack_axis", ""}}}}});
     const bool all =
         asked_for_all || (!given && voxels.grid && steps_across_all(*voxels.grid, voxels.as));
     std::optional<Decision> made =

@@ -5,7 +5,7 @@
 
 #include "geometry/formats/length_unit.h"
 #include "geometry/formats/surface_file.h"
-#include "geometry/kernel/errors.h"
+#include "geometry/kernel/diagnosed_error.h"
 
 namespace vesselbench {
 
@@ -65,7 +65,9 @@ SurfaceArgument read_surface_argument(const Arguments& arguments, Outcome& outco
     read.unit_doubt =
         read.name + " does not state its unit: " + file.unit_doubt + "; both can be a vessel";
     if (units == "auto")
-        throw UsageError(read.unit_doubt + ". Give units=mm, cm or m (prepare and new: --units)");
+        throw DiagnosedUsage({.code = "unit-in-doubt",
+                              .words = {{"doubt", read.unit_doubt}},
+                              .remedies = {{.arguments = {{"units", ""}}}}});
     outcome.warnings.push_back(
         {.code = "unit-guessed",
          .words = {{"file", read.name}, {"doubt", file.unit_doubt}, {"units", read.units}},

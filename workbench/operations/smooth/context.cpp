@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "geometry/kernel/errors.h"
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/freed_memory.h"
 #include "geometry/kernel/statistics.h"
 #include "smoothing/context/cap_rounding.h"
@@ -25,8 +25,10 @@ std::optional<PositionConstraint> constraint_part(const Scene& scene, Arguments&
     }
     if (arguments.has("cell")) constraint.size = arguments.point("cell");
     if (!scene.sampling && !arguments.has("cell"))
-        throw UsageError("smooth: constraint=" + cell +
-                         " needs the voxel size: give cell=x,y,z in mm, each above 0");
+        throw DiagnosedUsage({.code = "voxel-size-unknown",
+                              .operation = "smooth",
+                              .words = {{"constraint", cell}},
+                              .remedies = {{.arguments = {{"cell", ""}}}}});
     arguments.set("cell", constraint.size);
     return constraint;
 }
@@ -95,7 +97,7 @@ std::vector<Parameter> context_parameter_table() {
     Parameter& distance =
         *std::ranges::find_if(table, [](const Parameter& p) { return p.name == "distance"; });
     distance.default_value.reset();
-    distance.help += "; default: none, with preset=planning linear where neighbours are loaded";
+    distance.help += "; default: none, for planning linear where neighbours are loaded";
     add({{.name = "caps",
           .type = Choice,
           .default_value = std::string("keep"),

@@ -72,6 +72,12 @@ RequestLabel history_label(const std::string& what) {
     return {.what = what, .kind = RequestKind::History};
 }
 
+/// Empty: the state has no such edit.
+std::string operation_of(const Snapshot& snapshot, EditId edit) {
+    const LogEntry* entry = find_entry(snapshot, edit);
+    return entry == nullptr ? "" : entry->edit.operation;
+}
+
 RequestLabel edit_label(const std::string& operation) {
     return {.what = readable(operation), .kind = RequestKind::Edit, .operation = operation};
 }
@@ -213,7 +219,7 @@ void Document::take_opened() {
     std::optional<Opened> opened = opening_.take();
     if (!opened && opening_.problem().empty())
         return tell(make_message(MessageKind::Remark, "Cancelled"));
-    if (!opened) return fail(opening_.problem(), {});
+    if (!opened) return fail(opening_.problem());
     try {
         show(std::move(*opened));
     } catch (const std::exception& error) {
@@ -336,10 +342,7 @@ void Document::tell_run(const Snapshot& before) {
     const std::vector<LogEntry> run = run_since(before, *snapshot_);
     for (const LogEntry& entry : run)
         if (entry.status == EditStatus::Stale)
-            tell(
-                make_message(MessageKind::Warning,
-                             readable(entry.edit.operation) + " no longer applies: " + entry.reason,
-                             entry.edit.operation));
+            tell(stale_message(entry));
         else
             tell_entered(entry);
     tell(make_message(MessageKind::Success, "Ran " + counted(run.size(), "pending edit")));
@@ -354,7 +357,8 @@ void Document::apply(const std::string& operation, Arguments given, Step step) {
 void Document::change(EditId edit, Arguments given) {
     if (!begin_request(RequestKind::Edit)) return;
     watch(runner_->change_edit(edit, std::move(given)),
-          {.what = "Changing edit " + std::to_string(edit)},
+          {.what = "Changing edit " + std::to_string(edit),
+           .operation = operation_of(*snapshot_, edit)},
           [this](const LogEntry& entry) { enter(entry); });
 }
 
@@ -414,7 +418,7 @@ void Document::export_to(const std::filesystem::path& file) {
     try {
         check_export_name(file);
     } catch (const UsageError& error) {
-        return fail(error.what(), {});
+        return fail(error.what());
     }
     const ExportFormat* format = row_that_writes(export_formats(), file.string());
     const std::string unit = format == nullptr ? "" : ", in " + format->unit;
@@ -469,7 +473,7 @@ void Document::preview(const std::string& operation, Arguments given, Step step)
 void Document::preview_change(EditId edit, Arguments given) {
     if (!begin_request(RequestKind::Preview)) return;
     watch(runner_->preview_change(edit, std::move(given)),
-          preview_label("edit " + std::to_string(edit), {}),
+          preview_label("edit " + std::to_string(edit), operation_of(*snapshot_, edit)),
           [this](const Preview& preview) { show(preview); });
 }
 
@@ -515,7 +519,7 @@ void Document::prepare(const std::string& purpose, std::optional<Step> again_fro
                        const std::optional<Recipe>& changed) {
     if (!begin_request(RequestKind::Edit)) return;
     const ResumedRecipe resumed = to_prepare(purpose, again_from);
-    if (!resumed.refusal.empty()) return fail(resumed.refusal, {});
+    if (!resumed.refusal.empty()) return fail(resumed.refusal);
     show_variant(purpose);
     drop_preview();
     for (const std::string& remark : resumed.remarks) tell(make_message(plain_text(remark)));
@@ -619,7 +623,7 @@ void Document::end(const EndedStroke& stroke) {
         return tell_entered(*stroke.entry);
     }
     if (stroke.cancelled) tell(make_message(MessageKind::Remark, "Cancelled"));
-    if (!stroke.error.empty()) fail(stroke.error, stroke.operation);
+    if (stroke.error) fail(*stroke.error, stroke.operation);
     ++dropped_strokes_;
 }
 
@@ -669,13 +673,13 @@ void Document::forget_messages() {
     other_messages_ = 0;
 }
 
-void Document::fail(const std::string& text, const std::string& operation) {
-    failure_ = make_message(MessageKind::Error, text, operation);
+void Document::fail(const std::string& text) {
+    failure_ = make_message(MessageKind::Error, text);
     tell(*failure_);
 }
 
 void Document::fail(Diagnostic error, const std::string& operation) {
-    if (error.code == kPlainText) return fail(text_of(error), operation);
+    if (error.code == kPlainText) return fail(text_of(error));
     if (error.operation.empty()) error.operation = operation;
     failure_ = make_message(error);
     tell(*failure_);

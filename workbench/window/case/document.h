@@ -252,7 +252,7 @@ private:
     void end_preparation();
     void end_at_once(const std::string& purpose, const std::string& text);
     void forget_messages();
-    void fail(const std::string& text, const std::string& operation);
+    void fail(const std::string& text);
     void fail(Diagnostic error, const std::string& operation);
 
     DocumentOptions options_;

@@ -2,9 +2,10 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "geometry/kernel/diagnostic.h"
-#include "workbench/case/history.h"
+#include "workbench/session/snapshot.h"
 
 namespace vesselbench {
 
@@ -14,21 +15,26 @@ enum class MessageKind { Remark, Success, Warning, Error };
 struct Message {
     MessageKind kind = MessageKind::Remark;
     std::string text;
-    std::string remedy;          ///< name of an operation that would solve it; empty: none
-    std::string time;            ///< local, "14:05:31"
-    std::optional<EditId> edit;  ///< that it is about
-    std::optional<Vec3> place;   ///< that it is about [mm]
+    std::string time;              ///< local, "14:05:31"
+    std::optional<EditId> edit;    ///< that it is about
+    std::optional<Vec3> place;     ///< that it is about [mm]
+    std::string operation;         ///< that it is about; empty: none
+    std::vector<Remedy> remedies;  ///< with their operations, the best first
 };
 
-/// A message of now. \param failed the operation it is about, which is no remedy for itself
-[[nodiscard]] Message make_message(MessageKind kind, std::string text,
-                                   const std::string& failed = {});
+/// A message of now.
+[[nodiscard]] Message make_message(MessageKind kind, std::string text);
 
 /// What an edit, a recipe or an error says, in the window's words, with its operation before it.
 [[nodiscard]] Message make_message(const Diagnostic& diagnostic);
 
-/// The first operation that an error's text names as a whole word, other than `failed`; empty:
-/// none. For errors that have no diagnostics.
-[[nodiscard]] std::string remedy_in(const std::string& text, const std::string& failed);
+/// Why an edit is stale; without remedies in projects of old versions.
+[[nodiscard]] Diagnostic refusal_of(const LogEntry& stale);
+
+/// The same in the window's words, without the edit's operation.
+[[nodiscard]] std::string reason_of(const LogEntry& stale);
+
+/// "Smooth no longer applies: ..."
+[[nodiscard]] Message stale_message(const LogEntry& stale);
 
 }  // namespace vesselbench

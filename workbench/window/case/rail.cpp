@@ -8,6 +8,7 @@
 #include "workbench/operations/table.h"
 #include "workbench/report/log_json.h"
 #include "workbench/window/case/edit_places.h"
+#include "workbench/window/case/message.h"
 #include "workbench/window/case/stroke_request.h"
 
 namespace vesselbench {
@@ -37,7 +38,7 @@ RailEdit rail_edit(const LogEntry& entry) {
                  .operation = edit.operation,
                  .arguments = arguments_text(edit),
                  .status = entry.status,
-                 .reason = entry.reason,
+                 .reason = entry.status == EditStatus::Stale ? reason_of(entry) : "",
                  .places = places_of_edit(entry)};
     if (entry.result) {
         row.change = effect_text(*entry.result);

@@ -4,7 +4,7 @@
 #include <iterator>
 #include <utility>
 
-#include "geometry/kernel/errors.h"
+#include "geometry/kernel/diagnosed_error.h"
 
 namespace vesselbench {
 
@@ -17,7 +17,8 @@ void StrokeQueue::add(const StrokePlace& place) {
     try {
         strokes_.back()->add(place);
     } catch (const std::exception& error) {
-        failed_.push_back({.operation = strokes_.back()->operation(), .error = error.what()});
+        failed_.push_back(
+            {.operation = strokes_.back()->operation(), .error = diagnostics_of(error).front()});
         drop();
     }
 }
@@ -66,7 +67,7 @@ void StrokeQueue::poll(LiveStroke& stroke, std::vector<EndedStroke>& ended) {
         ended.push_back({.operation = operation, .cancelled = true});
     } catch (const std::exception& error) {
         stroke.cancel();
-        ended.push_back({.operation = operation, .error = error.what()});
+        ended.push_back({.operation = operation, .error = diagnostics_of(error).front()});
     }
 }
 

@@ -15,8 +15,8 @@ namespace vesselbench {
 struct EndedStroke {
     std::string operation;
     std::optional<LogEntry> entry;  ///< the edit; none: nothing was painted, or it failed
-    std::optional<Scene> scene = std::nullopt;  ///< after it
-    std::string error = {};                     ///< empty unless it failed
+    std::optional<Scene> scene = std::nullopt;       ///< after it
+    std::optional<Diagnostic> error = std::nullopt;  ///< none unless it failed
     bool cancelled = false;
 };
 

@@ -22,6 +22,7 @@ namespace {
 struct FieldPanel {
     PanelContext& c;
     const FieldSink& sink;
+    std::string wanted;  ///< the parameter whose field gets the keyboard now; empty: none
 
     /// The name of a field's item.
     [[nodiscard]] std::string item(const FormField& field) const {
@@ -39,7 +40,10 @@ std::string hint_of(const FormField& field) {
 void edit_text(const FieldPanel& p, const FormField& field, float width) {
     std::string text = field.text;
     if (text_field(p.c.ui, p.item(field), text,
-                   {.hint = hint_of(field), .wrong = !field.error.empty(), .width = width}))
+                   {.hint = hint_of(field),
+                    .wrong = !field.error.empty(),
+                    .width = width,
+                    .focus = field.parameter->name == p.wanted}))
         p.sink.set(field.parameter->name, text);
 }
 
@@ -215,7 +219,10 @@ void draw_decisions(const FieldPanel& p, const OperationForm& form) {
 
 const Parameter* draw_form_fields(PanelContext& c, const OperationForm& form,
                                   const FieldSink& sink) {
-    const FieldPanel p{c, sink};
+    const FieldPanel p{c, sink, sink.in_view ? c.core.wanted_field() : ""};
+    if (sink.in_view) c.core.want_field({});
+    if (!p.wanted.empty() && is_rare(form.field(p.wanted)))
+        c.shown.unfolded_form = sink.prefix + form.operation().name;
     const Parameter* usual = draw_fields(p, form, std::not_fn(is_rare));
     const bool all = draw_more(p, form);
     const Parameter* rare = draw_fields(p, form, [all](const FormField& field) {

@@ -26,6 +26,7 @@ bool FormDesk::update_field_values() {
 
 void FormDesk::end_applied_form() {
     form_.reset();
+    wanted_field_.clear();
     disarm();
     end_drag();
     document.stand_before({});
@@ -68,19 +69,6 @@ void FormDesk::arm_required() {
             return arm(field.parameter->name);
 }
 
-void FormDesk::follow(const Message& message) {
-    if (message.edit && find_entry(*document.snapshot(), *message.edit) != nullptr)
-        return choose_edit(*message.edit);
-    if (!message.remedy.empty()) follow_remedy(message.remedy);
-}
-
-void FormDesk::follow_remedy(const std::string& operation) {
-    for (const LogEntry& entry : document.snapshot()->log)
-        if (operation == entry.edit.operation && entry.edit.place.step == Step::Source)
-            return choose_edit(entry.edit.edit.id);
-    choose(operation);
-}
-
 void FormDesk::choose_edit(EditId edit) {
     drop_form();
     const LogEntry* entry = find_entry(*document.snapshot(), edit);
@@ -103,6 +91,7 @@ void FormDesk::drop_form() {
     document.drop_preview();
     if (form_) document.forget_failure();
     form_.reset();
+    wanted_field_.clear();
     disarm();
     end_drag();
     previewed_changes_ = -1;

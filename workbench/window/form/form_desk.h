@@ -50,12 +50,6 @@ public:
     /// the operation is of another version.
     void choose_edit(EditId edit);
 
-    /// Shows the form that a message recommends: of the edit it is about, else of the operation.
-    void follow(const Message& message);
-
-    /// Opens the edit that loads the source if the operation is its, else a new form.
-    void follow_remedy(const std::string& operation);
-
     /// Closes the form and drops its preview: the newest model is shown.
     void leave_form();
 
@@ -65,6 +59,12 @@ public:
     // --- its fields
 
     void set_field(const std::string& parameter, const std::string& text);
+
+    /// The field of a parameter gets the keyboard in the next frame that draws it; empty: none.
+    void want_field(const std::string& parameter) { wanted_field_ = parameter; }
+
+    [[nodiscard]] const std::string& wanted_field() const { return wanted_field_; }
+
     void fill_form(const std::vector<FieldText>& texts);
     void reset_form();
 
@@ -165,7 +165,7 @@ private:
     Step step_ = Step::Source;
     int previewed_changes_ = -1;  ///< the form's, when its preview was asked for
     int seen_entered_ = 0;
-    std::string armed_;
+    std::string armed_, wanted_field_;
     int drags_ = 0;
     std::optional<OperationForm> before_drag_;
     std::optional<OperationForm> dragged_;  ///< the form before the drag that ended last

@@ -31,8 +31,8 @@ std::string error_in(const FormField& field) {
     if (field.text.empty()) return "";
     try {
         static_cast<void>(checked_value(*field.parameter, Value(field.text)));
-    } catch (const UsageError& error) {
-        return error.what();
+    } catch (const UsageError&) {
+        return "It must be " + allowed_text(*field.parameter);
     }
     return "";
 }

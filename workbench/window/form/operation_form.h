@@ -15,7 +15,7 @@ struct FormField {
     std::string text;                ///< empty: not given
     std::optional<Value> automatic;  ///< what the operation decides while `text` is empty, if known
     bool active = true;              ///< false: without effect, because of another field's value
-    std::string error;               ///< the checker's text; empty: the text may be used
+    std::string error;               ///< what the text must be; empty: it may be used
 };
 
 /// The parameters of an operation as editable texts: what a panel shows, without any drawing. A

@@ -8,6 +8,7 @@
 #include "geometry/kernel/wording.h"
 #include "workbench/window/case/readable.h"
 #include "workbench/window/core/layout.h"
+#include "workbench/window/core/remedies.h"
 #include "workbench/window/core/shown.h"
 #include "workbench/window/features/gallery/gallery_view.h"
 #include "workbench/window/panels/message_panel.h"
@@ -46,12 +47,12 @@ bool is_about_form(const PanelContext& c) {
 void draw_failure(PanelContext& c, ScreenRect& place) {
     const Message failure = *c.place.document.failure();
     const Banner banner{icon_of(failure.kind), c.ui.theme.danger, failure.text,
-                        failure.remedy.empty() ? "" : "Go to " + readable(failure.remedy), true};
+                        button_of(c.place.document, failure), true};
     place.height = height_of(c.ui, banner, place.width);
     const BannerAnswer answer = draw_banner(c.ui, "failure", banner, place);
     if (answer == BannerAnswer::None) return;
     c.place.document.forget_failure();
-    if (answer == BannerAnswer::Action) c.place.follow(failure);
+    if (answer == BannerAnswer::Action) follow(c.core, failure);
 }
 
 void draw_pending(PanelContext& c, ScreenRect& left) {
@@ -93,7 +94,7 @@ void draw_made_before(PanelContext& c, ScreenRect& left) {
     const Banner banner{icons::kInformation, c.ui.theme.accent,
                         "This project was made from " + document.made_before()->name() +
                             " before; it is opened as you left it",
-                        "Begin anew", true};
+                        "Start a new project", true};
     const BannerAnswer answer = draw_top(c, "made_before", banner, left);
     if (answer == BannerAnswer::Action) return document.begin_anew();
     if (answer == BannerAnswer::Close) document.keep_made_before();
@@ -111,10 +112,10 @@ void draw_stale(PanelContext& c, ScreenRect& left) {
     const LogEntry* stale = stale_edit(c);
     if (stale == nullptr) return;
     const EditId edit = stale->edit.edit.id;
-    const Banner banner{
-        icons::kStale, c.ui.theme.danger,
-        readable(stale->edit.operation) + " no longer applies and was skipped: " + stale->reason,
-        "Change it"};
+    const Banner banner{icons::kStale, c.ui.theme.danger,
+                        readable(stale->edit.operation) +
+                            " no longer applies and was skipped: " + reason_of(*stale),
+                        "Change it"};
     if (draw_top(c, "stale", banner, left) == BannerAnswer::Action) c.place.choose_edit(edit);
 }
 

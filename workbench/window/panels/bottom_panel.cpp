@@ -40,7 +40,7 @@ std::string message_label(const Document& document) {
 
 std::string measure_label(const MeasureList& measures) {
     const std::size_t count = measures.all().size();
-    return count == 0 ? "Measures" : "Measures (" + std::to_string(count) + ")";
+    return count == 0 ? "Measurements" : "Measurements (" + std::to_string(count) + ")";
 }
 
 }  // namespace

@@ -51,7 +51,7 @@ const char* title_of(FileQuestion question) {
         case FileQuestion::Picture:
             return "Save a picture of the view";
         case FileQuestion::Measures:
-            return "Export the measures";
+            return "Export the measurements";
         case FileQuestion::SaveRecipe:
             return "Save the recipe";
         case FileQuestion::None:

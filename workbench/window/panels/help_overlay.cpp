@@ -36,7 +36,7 @@ constexpr const char* kFirstSteps =
     "2. Press Prepare to run a complete recipe; or go through the steps on the left, one by one.\n"
     "3. Choose a step, then an operation on the right. Preview shows its result, Apply adds the "
     "edit.\n"
-    "4. Click an edit in the rail to change it; click a state of the history to go there.\n"
+    "4. Click an edit in the steps to change it; click a state of the history to go there.\n"
     "5. Export writes the model. There is nothing to save: each edit is in the project file.";
 
 }  // namespace

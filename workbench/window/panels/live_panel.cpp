@@ -53,7 +53,7 @@ void draw_mouse(PanelContext& c, const OperationForm& form) {
 void draw_live_panel(PanelContext& c, const OperationForm& form) {
     const LiveSmoothing& live = c.place.live();
     if (!live.can_follow())
-        return wrapped(c.ui, "The model cannot follow: " + live.why_not(), c.ui.theme.warning);
+        return wrapped(c.ui, "The model cannot be updated: " + live.why_not(), c.ui.theme.warning);
     bool on = live.follows();
     if (checkbox(c.ui, "live.follow", "Update the model as fields change", on))
         c.place.live().follow(on);

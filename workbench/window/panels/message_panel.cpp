@@ -6,6 +6,7 @@
 #include <imgui.h>
 
 #include "workbench/window/case/readable.h"
+#include "workbench/window/core/remedies.h"
 #include "workbench/window/style/icons.h"
 #include "workbench/window/widgets/controls.h"
 #include "workbench/window/widgets/ui.h"
@@ -43,19 +44,20 @@ Paint colour_of(const Theme& theme, MessageKind kind) {
 
 namespace {
 
-std::string label_of(const PanelContext& c, const Message& message) {
-    const auto snapshot = c.place.document.snapshot();
-    const LogEntry* entry =
-        message.edit && snapshot ? find_entry(*snapshot, *message.edit) : nullptr;
-    if (entry != nullptr) return "Go to " + readable(entry->edit.operation);
-    return message.remedy.empty() ? "" : "Go to " + readable(message.remedy);
-}
-
 constexpr float kTextLeft = 7.5F;  ///< [em]
+
+/// \param label of its remedy's button; empty: none
+float buttons_width(const PanelContext& c, const Message& message, const std::string& label) {
+    const float words = label.empty() ? 0 : ImGui::CalcTextSize(label.c_str()).x;
+    const float target = message.place ? ImGui::GetFrameHeight() + c.ui.grid(1) : 0;
+    return words + target + c.ui.grid(3);
+}
 
 /// Room right of a message's text [pixels].
 float right_of(const PanelContext& c, const Message& message) {
-    return label_of(c, message).empty() && !message.place ? c.ui.grid(2) : c.ui.em * 14;
+    const std::string label = button_of(c.place.document, message);
+    if (label.empty() && !message.place) return c.ui.grid(2);
+    return std::max(c.ui.em * 14, buttons_width(c, message, label) + c.ui.grid(3));
 }
 
 /// Of a message's text [pixels].
@@ -71,10 +73,8 @@ float height_of(const PanelContext& c, const Message& message) {
 }
 
 void draw_remedy(PanelContext& c, const Message& message, std::size_t index) {
-    const std::string label = label_of(c, message);
-    const float button_width = label.empty() ? 0 : ImGui::CalcTextSize(label.c_str()).x;
-    const float target = message.place ? ImGui::GetFrameHeight() + c.ui.grid(1) : 0;
-    const float width = button_width + target + c.ui.grid(3);
+    const std::string label = button_of(c.place.document, message);
+    const float width = buttons_width(c, message, label);
     ImGui::SameLine(
         std::max(ImGui::GetCursorPosX(), ImGui::GetWindowWidth() - width - c.ui.grid(2)));
     const std::string number = std::to_string(index);
@@ -84,7 +84,7 @@ void draw_remedy(PanelContext& c, const Message& message, std::size_t index) {
     if (message.place && !label.empty()) ImGui::SameLine(0, c.ui.grid(1));
     if (!label.empty() && button(c.ui, "message.remedy." + number, label,
                                  {.quiet = true, .enabled = c.place.document.is_open()}))
-        c.place.follow(message);
+        follow(c.core, message);
 }
 
 void draw_message(PanelContext& c, const Message& message, std::size_t index) {

@@ -1,12 +1,14 @@
 #include "workbench/window/panels/operation_panel.h"
 
 #include <algorithm>
+#include <optional>
 
 #include <imgui.h>
 
 #include "workbench/case/parameter_texts.h"
 #include "workbench/operations/table.h"
 #include "workbench/window/case/readable.h"
+#include "workbench/window/core/remedies.h"
 #include "workbench/window/core/shown.h"
 #include "workbench/window/features/brush/brush_feature.h"
 #include "workbench/window/features/brush/brush_form.h"
@@ -115,13 +117,13 @@ void draw_title(PanelContext& c, const OperationForm& form) {
 }
 
 std::string help_of(const Parameter& parameter) {
-    std::string range = range_text(parameter);
-    std::ranges::replace(range, '|', ' ');
-    const std::string unit = readable_unit(parameter.unit);
     std::string help = readable(parameter.name) + ": " + parameter.help + ".";
-    if (parameter.type != ParameterType::Choice && parameter.type != ParameterType::Flag)
-        help += "  Allowed: " + range + (unit.empty() ? "" : " " + unit) + ".";
-    return help + "  Default: " + default_text(parameter) + ".";
+    const std::string preset = default_text(parameter);
+    if (parameter.type == ParameterType::Flag)
+        return help + "  Default: " + (preset == "true" ? "on" : "off") + ".";
+    if (parameter.type != ParameterType::Choice)
+        help += "  " + readable_sentence(allowed_text(parameter)) + ".";
+    return help + "  Default: " + preset + ".";
 }
 
 /// The form's edit, if it no longer applies.
@@ -157,8 +159,8 @@ void draw_advice(PanelContext& c, const OperationForm& form, const Parameter* pa
     if (failure) return wrapped(c.ui, failure->text, c.ui.theme.danger);
     if (const LogEntry* stale = stale_edit(c))
         return wrapped(c.ui,
-                       "No longer applies: " + stale->reason +
-                           "\nChange its arguments, pick its place again, or remove it.",
+                       "No longer applies: " + reason_of(*stale) +
+                           "\nChange its parameters, pick its place again, or remove it.",
                        c.ui.theme.danger);
     if (missing) return wrapped(c.ui, need_of(form), c.ui.theme.warning);
     if (shows_live(c)) return wrapped(c.ui, live_advice(c), c.ui.theme.muted);
@@ -176,20 +178,32 @@ void draw_advice(PanelContext& c, const OperationForm& form, const Parameter* pa
             c.ui.theme.muted);
 }
 
-/// The operation that the text of a failure, or of a stale edit's reason, recommends.
-std::string remedy_of(const PanelContext& c) {
-    const auto& failure = c.place.document.failure();
-    if (failure) return failure->remedy;
-    const LogEntry* stale = stale_edit(c);
-    return stale == nullptr ? "" : remedy_in(stale->reason, stale->edit.operation);
+/// What the form's failure is, or why its edit is stale; none: nothing is wrong.
+std::optional<Message> problem_of(const PanelContext& c) {
+    if (const auto& failure = c.place.document.failure()) return failure;
+    if (const LogEntry* stale = stale_edit(c)) return stale_message(*stale);
+    return std::nullopt;
 }
 
-void draw_remedy(PanelContext& c) {
-    const std::string remedy = remedy_of(c);
-    if (remedy.empty()) return;
-    if (button(c.ui, "operation.remedy", "Go to " + readable(remedy),
-               {.icon = icons::kRight, .width = -1}))
-        c.place.follow_remedy(remedy);
+/// The footer has room for so many.
+constexpr std::size_t kMostRemedies = 2;
+
+std::vector<Remedy> shown_remedies(const PanelContext& c, const std::optional<Message>& problem) {
+    if (!problem) return {};
+    std::vector<Remedy> remedies = remedies_of(c.place.document, *problem);
+    remedies.resize(std::min(remedies.size(), kMostRemedies));
+    return remedies;
+}
+
+void draw_remedies(PanelContext& c) {
+    const std::optional<Message> problem = problem_of(c);
+    const std::vector<Remedy> remedies = shown_remedies(c, problem);
+    for (std::size_t i = 0; i < remedies.size(); ++i) {
+        const std::string name = "operation.remedy" + (i == 0 ? "" : "." + std::to_string(i));
+        if (button(c.ui, name, remedy_label(problem->operation, remedies[i]),
+                   {.icon = icons::kRight, .primary = i == 0, .width = -1}))
+            return follow(c.core, *problem, remedies[i]);
+    }
 }
 
 void draw_actions(PanelContext& c, const OperationForm& form) {
@@ -207,7 +221,7 @@ void draw_actions(PanelContext& c, const OperationForm& form) {
                {.primary = true,
                 .enabled = place.can_apply(),
                 .width = width,
-                .help = change ? "Run the edit with these arguments; later edits become pending"
+                .help = change ? "Run the edit with these values; later edits become pending"
                                : "Run and add it as an edit; can be undone"}))
         place.apply();
     ImGui::SameLine(0, c.ui.grid(1));
@@ -253,7 +267,8 @@ float advice_height(const PanelContext& c) {
 /// Height of the part below the fields.
 float footer_height(const PanelContext& c, const OperationForm& form) {
     const float line = ImGui::GetFrameHeightWithSpacing();
-    const float more = (form.edit() ? line : 0) + (remedy_of(c).empty() ? 0 : line);
+    const std::size_t remedies = shown_remedies(c, problem_of(c)).size();
+    const float more = (form.edit() ? line : 0) + line * static_cast<float>(remedies);
     return advice_height(c) + line + more + c.ui.grid(1);
 }
 
@@ -263,7 +278,7 @@ void draw_footer(PanelContext& c, const OperationForm& form, const Parameter* pa
     ImGui::BeginChild("advice", {0, advice_height(c) - c.ui.grid(1)});
     draw_advice(c, form, parameter);
     ImGui::EndChild();
-    draw_remedy(c);
+    draw_remedies(c);
     if (!c.place.form()) return;
     if (edit) draw_note(c, *edit);
     if (edit) draw_removal(c, *edit);
@@ -299,6 +314,7 @@ const Parameter* draw_contents(PanelContext& c, OperationForm& form) {
 
 void draw_tabs(PanelContext& c) {
     if (!c.place.has_live_form()) return;
+    if (!c.place.wanted_field().empty()) c.shown.form = FormTab::Fields;
     draw_tab(c, "form.fields", "Parameters", FormTab::Fields);
     ImGui::SameLine();
     const bool follows = c.place.live().has_form() || c.place.extraction().has_form();

@@ -49,7 +49,7 @@ void draw_extent(PanelContext& c, const ResumedRecipe& resumed) {
     const std::vector<Step> steps =
         repeatable_steps(resumed, *c.place.document.snapshot(), c.shown.purpose);
     const auto text_of = [](const std::optional<Step>& from) {
-        return from ? "Again from " + title_of(*from) : std::string("What is missing");
+        return from ? "Start again from " + title_of(*from) : std::string("What is missing");
     };
     if (c.shown.again_from && std::ranges::count(steps, *c.shown.again_from) == 0)
         c.shown.again_from.reset();
@@ -84,7 +84,7 @@ void draw_entry(PanelContext& c, std::size_t entry) {
              .title = number + ".  " + readable(form.operation().name),
              .detail = form.valid() ? argument_summary(form.operation(), form.arguments()) : "",
              .right = c.place.recipe.is_changed(entry) ? "changed" : "",
-             .help = open ? "Fold the values" : "Change the values of this edit"}))
+             .help = open ? "Hide the values" : "Change the values of this edit"}))
         c.shown.entry = open ? std::nullopt : std::optional(entry);
     if (open) draw_values(c, entry);
 }
@@ -101,21 +101,23 @@ void draw_entries(PanelContext& c, const ResumedRecipe& resumed) {
     if (!c.shown.again_from) return;
     space(c.ui, 0.5F);
     wrapped(c.ui,
-            "Those of the model from " + title_of(*c.shown.again_from) +
-                " on are left out first; the history keeps them.",
+            "The model's edits from " + title_of(*c.shown.again_from) +
+                " on are removed first; the history keeps them.",
             c.ui.theme.muted);
 }
 
 /// What becomes of changed values beside running them.
 void draw_recipe_buttons(PanelContext& c) {
     RecipeDraft& recipe = c.place.recipe;
-    if (button(c.ui, "prepare.save", "Save as a recipe",
-               {.enabled = !recipe.forms().empty() && recipe.error().empty(),
-                .help = "A file of these edits and values, which other cases can be prepared by"}))
+    if (button(
+            c.ui, "prepare.save", "Save as a recipe",
+            {.enabled = !recipe.forms().empty() && recipe.error().empty(),
+             .help =
+                 "Write these edits and values to a file, with which other cases can be prepared"}))
         c.place.ask(FileQuestion::SaveRecipe);
     ImGui::SameLine(0, c.ui.grid(1));
     if (button(c.ui, "prepare.restore", "Restore",
-               {.enabled = recipe.is_changed(), .help = "Take back all changes of the values"}))
+               {.enabled = recipe.is_changed(), .help = "Undo all changes to the values"}))
         recipe.reset();
     ImGui::SameLine();
 }

@@ -77,7 +77,7 @@ std::string help_of(const RailEdit& edit) {
     if (!edit.change.empty()) help += "\n" + edit.change;
     if (!edit.reason.empty()) help += "\nno longer applies: " + edit.reason;
     for (const std::string& warning : edit.warnings) help += "\nwarning: " + warning;
-    return help + "\nClick to change its arguments.";
+    return help + "\nClick to change its parameters.";
 }
 
 /// The second line of an edit.

@@ -40,8 +40,8 @@ void figure(const Ui& ui, const std::string& name, const std::string& value,
 void draw_inside_out(Ui& ui) {
     text(ui, "Inside out", ui.theme.warning);
     help_on_hover(ui,
-                  "The normals of the surface point inward, and colours are not seen on it. "
-                  "Repair turns it");
+                  "The surface's normals point inward, so its colours are not visible. "
+                  "Repair reverses its orientation");
     ui.item("status.inside_out");
     ImGui::SameLine(0, ui.grid(3));
 }
@@ -66,8 +66,8 @@ void draw_figures(PanelContext& c) {
             c.ui, "Deviation from source",
             formatted(figures.deviation->mean, "mean %.3f, ") +
                 formatted(figures.deviation->largest, "largest %.3f mm"),
-            "Of the shown wall from the source. What was removed, and what was made at the ends, "
-            "is not part of it");
+            "Distance of the shown wall from the source, without removed parts and what was made "
+            "at the ends");
 }
 
 void draw_progress(PanelContext& c, const Activity& activity, float width) {

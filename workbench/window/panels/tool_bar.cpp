@@ -61,7 +61,7 @@ void draw_products(PanelContext& c) {
                {.icon = icons::kPrepare,
                 .primary = true,
                 .enabled = document.can(RequestKind::Edit),
-                .help = "Run a complete recipe; its edits appear in the rail"}))
+                .help = "Run a complete recipe; its edits appear in the steps at the left"}))
         c.shown.prepare = true;
     ImGui::SameLine();
     if (button(c.ui, "tool.export", "Export",
@@ -93,7 +93,7 @@ std::vector<std::string> variants_of(const Document& document) {
 
 std::string variant_help() {
     std::string help = "Steps 4 to 8 belong to a variant, the others to all:";
-    for (const Purpose& purpose : purposes()) help += "\n" + purpose.name + ": " + purpose.title;
+    for (const Purpose& purpose : purposes()) help += "\n" + purpose.title + ": " + purpose.summary;
     return help;
 }
 

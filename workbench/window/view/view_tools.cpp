@@ -116,8 +116,8 @@ ToolRequests draw_view_tools(PanelContext& c, const ScreenRect& view, bool persp
     draw_colour_switch(c);
     asked.switch_perspective =
         draw_tool(c, "view.perspective", icons::kPerspective, "Perspective  5", perspective);
-    draw_switch(c, "view.options", icons::kLayers, "Colours, sections, overlays and measures  V",
-                c.shown.view);
+    draw_switch(c, "view.options", icons::kLayers,
+                "Colours, sections, overlays and measurements  V", c.shown.view);
     if (has_image) draw_slice_switch(c);
     return asked;
 }

@@ -140,18 +140,18 @@ void draw_state(PanelContext& c) {
 void draw_extraction_panel(PanelContext& c, const OperationForm& form) {
     LiveExtraction& extraction = c.core.get<ExtractionFeature>().extraction();
     if (!extraction.can_follow())
-        return wrapped(c.ui, "The surface cannot follow: " + extraction.why_not(),
+        return wrapped(c.ui, "The surface cannot be updated: " + extraction.why_not(),
                        c.ui.theme.warning);
     if (extraction.begins()) c.core.get<ExtractionFeature>().follow(true);
     bool on = extraction.follows();
-    if (checkbox(c.ui, "live.follow", "The surface follows the fields", on))
+    if (checkbox(c.ui, "live.follow", "Update the surface as fields change", on))
         c.core.get<ExtractionFeature>().follow(on);
     space(c.ui, 1);
     const auto histogram = extraction.histogram();
     if (histogram && !histogram->counts.empty() && extraction.has_iso())
         draw_histogram(c, form, *histogram);
     else if (histogram)
-        wrapped(c.ui, "Labels are extracted: there is no iso-value to slide.", c.ui.theme.muted);
+        wrapped(c.ui, "Labels are extracted: there is no threshold to drag.", c.ui.theme.muted);
     space(c.ui, 0.5F);
     draw_state(c);
 }

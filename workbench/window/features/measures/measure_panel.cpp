@@ -36,7 +36,8 @@ bool draw_tools(PanelContext& c, const KeptMeasure& measure, const std::string& 
                     "Show the place in the view and in the slices"))
         c.core.look_at(middle_of(measure));
     ImGui::SameLine(0, c.ui.grid(0.5F));
-    return icon_button(c.ui, "measures.remove." + number, icons::kDelete, "Remove this measure");
+    return icon_button(c.ui, "measures.remove." + number, icons::kDelete,
+                       "Remove this measurement");
 }
 
 /// The time gives way first, then where it was made, then figures; the name is kept.
@@ -84,7 +85,7 @@ void draw_measure_table(PanelContext& c) {
                 c.ui.theme.warning);
     if (measures.all().empty())
         return wrapped(c.ui,
-                       "No measures yet. M measures distances, on the model and in slices; D "
+                       "No measurements yet. M measures distances, on the model and in slices; D "
                        "measures diameters.",
                        c.ui.theme.muted);
     std::optional<std::size_t> removed;

@@ -23,8 +23,8 @@ bool MeasuresFeature::update() {
 void MeasuresFeature::end() {
     const std::string lost = measures_.close();
     if (!lost.empty())
-        core_.document.tell(
-            make_message(MessageKind::Error, "the last change of the measures is lost: " + lost));
+        core_.document.tell(make_message(MessageKind::Error,
+                                         "the last change of the measurements is lost: " + lost));
 }
 
 void MeasuresFeature::case_opened() {

@@ -117,7 +117,7 @@ void MeasuringTool::draw_strip(PanelContext& c, ViewStrips& strips) {
                     measures.lengthens()))
         measures.begin_next();
     ViewStrips::next(ui);
-    if (icon_button(c.ui, "measure.clear", icons::kDelete, "Remove the last measure",
+    if (icon_button(c.ui, "measure.clear", icons::kDelete, "Remove the last measurement",
                     measures.can_take_back()))
         measures.take_back();
     ViewStrips::next(ui);

@@ -183,7 +183,7 @@ void draw_returns(PanelContext& c) {
         openings.rows(), [](const EndRow& row) { return row.chosen || row.is_changed(); });
     const EndRow* chosen = openings.selected() ? openings.row(*openings.selected()) : nullptr;
     if (button(c.ui, "ends.plain", "All as planned",
-               {.enabled = any, .help = "Take back what was chosen and moved"}))
+               {.enabled = any, .help = "Discard the choices and the moved cuts"}))
         return fill(c, openings.plain_texts());
     ImGui::SameLine(0, c.ui.grid(1));
     if (button(c.ui, "ends.unmove", "Cut as planned",
