@@ -293,7 +293,7 @@ constexpr CatalogueText kTexts[] = {
     {"too-many-subdivisions",
      "subdividing {triangles#triangle} {iterations#time} makes more than {most_millions:%.0f} "
      "million: use fewer {fix}"},
-    {"operation-broke", "{what}; the project is unchanged: use other arguments[, or {fix} first]"},
+    {"operation-broke", "{what}; the project is unchanged: use other parameters[, or {fix} first]"},
     {"vertex-not-finite",
      "vertex {vertex:%.0f} has a coordinate that is not a finite number: export the surface again "
      "from its source"},
@@ -524,7 +524,7 @@ constexpr CatalogueText kTexts[] = {
      "unit is a change of the edit that read it:\n{fix}, then --resume]"},
     {"edit-no-longer-applies",
      "edit {number} {name} no longer applies after an earlier edit was changed: {why}; change its "
-     "arguments, remove it, or\n{fix}, then --resume: it chooses again what it chose "
+     "parameters, remove it, or\n{fix}, then --resume: it chooses again what it chose "
      "automatically"},
     {"set-too-late",
      "--set '{setting}': {name} has been made already[; to change it:\n{fix}, then --resume]"},

@@ -153,7 +153,7 @@ SCENARIO("An end that cannot be cut where it should is cut nearby", "[geometry][
             CHECK((upper(second).place.plane.point - chosen.plane.point).norm() > 1e-6);
             CHECK_FALSE(second.ends.front().plain);
             CHECK(second.ends.front().fate == EndFate::Opened);
-            CHECK_THAT(second.ends.front().why, Contains("nearest place"));
+            CHECK_THAT(second.ends.front().why, Contains("nearest possible place"));
             const ClippedSurface made = clip_openings(tube, second);
             CHECK(made.failed.empty());
             CHECK(is_closed_manifold(made.surface));

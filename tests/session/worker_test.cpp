@@ -89,7 +89,7 @@ SCENARIO("Errors keep their class across the processes", "[session][worker]") {
     CHECK_THROWS_AS(refuse("algorithm"), AlgorithmFailure);
     CHECK(text_of([&] { (void)refuse("io"); }) == "refused as io");
     CHECK_THROWS_AS(refuse("library"), AlgorithmFailure);
-    CHECK(text_of([&] { (void)refuse("library"); }).starts_with("refuse failed (vector"));
+    CHECK(text_of([&] { (void)refuse("library"); }).starts_with("failed (vector"));
     CHECK_THROWS_AS(run("refuse", {}, {}), UsageError);
 }
 

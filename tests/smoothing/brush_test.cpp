@@ -315,5 +315,5 @@ SCENARIO("Dabs off the surface and nonsense values are refused", "[smoothing][br
     CHECK_THROWS_AS(BrushStroke(make_surface({}, {}), {}), InvalidInput);
     const Surface torn =
         mapped(sphere, [&](const Vec3& p) { return p.z() > 9.99 ? Vec3(p.x(), nan, p.z()) : p; });
-    CHECK_THROWS_WITH(BrushStroke(torn, {}), Catch::Contains("no finite position"));
+    CHECK_THROWS_WITH(BrushStroke(torn, {}), Catch::Contains("not a finite number"));
 }

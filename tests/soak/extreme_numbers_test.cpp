@@ -14,6 +14,7 @@
 #include "tests/support/operation_examples.h"
 #include "tests/support/paths.h"
 #include "tests/support/shapes.h"
+#include "workbench/case/checked_value.h"
 #include "workbench/operations/table.h"
 #include "workbench/worker/worker.h"
 

@@ -12,6 +12,7 @@
 #include "tests/support/scene_bits.h"
 #include "workbench/case/argument_texts.h"
 #include "workbench/case/arguments_json.h"
+#include "workbench/case/checked_value.h"
 #include "workbench/case/history.h"
 #include "workbench/export/products.h"
 #include "workbench/operations/table.h"

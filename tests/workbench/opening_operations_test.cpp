@@ -18,6 +18,7 @@
 #include "tests/support/shapes.h"
 #include "tests/support/surface_facts.h"
 #include "tests/workbench/test_operations.h"
+#include "workbench/case/checked_value.h"
 #include "workbench/case/operation.h"
 #include "workbench/operations/shared/opening_arguments.h"
 #include "workbench/operations/table.h"

@@ -14,6 +14,7 @@
 #include "tests/support/paths.h"
 #include "tests/support/shapes.h"
 #include "workbench/case/arguments_json.h"
+#include "workbench/case/checked_value.h"
 #include "workbench/case/near_names.h"
 #include "workbench/operations/table.h"
 

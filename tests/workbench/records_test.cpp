@@ -8,6 +8,7 @@
 #include "geometry/kernel/errors.h"
 #include "workbench/case/argument_texts.h"
 #include "workbench/case/arguments_json.h"
+#include "workbench/case/checked_value.h"
 #include "workbench/case/parameter_texts.h"
 #include "workbench/case/record_values.h"
 #include "workbench/project/stored_text.h"

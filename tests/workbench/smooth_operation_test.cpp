@@ -19,6 +19,7 @@
 #include "tests/support/skip.h"
 #include "tests/support/surface_facts.h"
 #include "tests/workbench/test_operations.h"
+#include "workbench/case/checked_value.h"
 #include "workbench/case/operation.h"
 #include "workbench/operations/table.h"
 #include "workbench/phantoms/phantom_json.h"

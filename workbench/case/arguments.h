@@ -9,6 +9,8 @@
 #include <variant>
 #include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "geometry/kernel/vec3.h"
 
 namespace vesselbench {
@@ -78,5 +80,16 @@ private:
 
 /// The command line's text of a value, with enough digits to read it back exactly.
 [[nodiscard]] std::string to_text(const Value& value);
+
+/// JSON form of a value: true|false, number, text, [x,y,z], [1,2,3], [{"name": value, ...}, ...].
+[[nodiscard]] nlohmann::ordered_json to_json(const Value& value);
+
+/// The value that a JSON form gives, of no parameter's type: points are lists of numbers.
+/// \param called the value in error texts: "parameter 'planes'"
+/// \throw UsageError if it is no value's form
+[[nodiscard]] Value value_from_json(const std::string& called, const nlohmann::ordered_json& json);
+
+/// JSON object of the arguments, by parameter name.
+[[nodiscard]] nlohmann::ordered_json to_json(const Arguments& arguments);
 
 }  // namespace vesselbench

@@ -1,6 +1,7 @@
 #include "workbench/case/checked_arguments.h"
 
 #include "geometry/kernel/errors.h"
+#include "workbench/case/checked_value.h"
 #include "workbench/case/operation.h"
 
 namespace vesselbench {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "geometry/kernel/plain_name.h"
 #include "geometry/kernel/wording.h"
 
 namespace vesselbench {
@@ -24,6 +25,33 @@ std::string record_text(const Parameter& parameter) {
     for (const Parameter& field : parameter.fields)
         fields += (fields.empty() ? "\"" : ", \"") + field.name + "\": ...";
     return "[{" + fields + "}, ...]";
+}
+
+std::string allowed_range(const Parameter& parameter) {
+    const std::string unit =
+        parameter.unit.empty() || parameter.unit == "-" ? "" : " " + parameter.unit;
+    const bool below = std::isfinite(parameter.minimum), above = std::isfinite(parameter.maximum);
+    const std::string from = to_text(Value(parameter.minimum));
+    const std::string to = to_text(Value(parameter.maximum));
+    if (below && above)
+        return (parameter.above_minimum ? "above " + from + " and at most " + to
+                                        : from + " to " + to) +
+               unit;
+    if (below) return (parameter.above_minimum ? "above " : "at least ") + from + unit;
+    if (above) return "at most " + to + unit;
+    return "";
+}
+
+std::string wanted_text(const Parameter& parameter) {
+    switch (parameter.meaning) {
+        case Meaning::Name:
+            return "a name of " + plain_name_rule();
+        case Meaning::Names:
+        case Meaning::Openings:
+            return "names of " + plain_name_rule() + ", separated by commas";
+        default:
+            return "a text";
+    }
 }
 
 }  // namespace
@@ -74,6 +102,35 @@ std::string range_text(const Parameter& parameter) {
         default:
             return to_string(parameter.type);
     }
+}
+
+std::string allowed_text(const Parameter& parameter) {
+    const std::string range = allowed_range(parameter);
+    const std::string in_range = range.empty() ? "" : " (" + range + ")";
+    switch (parameter.type) {
+        case ParameterType::Flag:
+            return "true or false";
+        case ParameterType::Integer:
+            return "an integer" + in_range;
+        case ParameterType::Real:
+            return "a number" + in_range +
+                   (parameter.choices.empty() ? "" : ", or " + joined(parameter.choices));
+        case ParameterType::Choice:
+            return "one of " + joined(parameter.choices);
+        case ParameterType::Point:
+            return "three numbers x,y,z" + in_range +
+                   (parameter.choices.empty() ? "" : ", or " + joined(parameter.choices));
+        case ParameterType::List:
+            return "numbers separated by commas" + in_range;
+        case ParameterType::Records:
+            return "records as JSON, " + range_text(parameter) +
+                   ", or the values of their fields one after the other, separated by commas";
+        case ParameterType::Text:
+            return wanted_text(parameter);
+        case ParameterType::File:
+            return "a file name";
+    }
+    return "";
 }
 
 std::string unit_text(const Parameter& parameter) {

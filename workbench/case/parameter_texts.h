@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "workbench/case/operation.h"
+#include "workbench/case/parameter.h"
 
 namespace vesselbench {
 
@@ -11,6 +11,9 @@ namespace vesselbench {
 /// What a parameter may be: "0 ... 1", ">= 1", "x,y,z, > 0", "keep|smooth|round",
 /// "[{\"place\": ..., \"way\": ...}, ...]".
 [[nodiscard]] std::string range_text(const Parameter& parameter);
+
+/// What its value may be: "a number (0 to 1 mm)".
+[[nodiscard]] std::string allowed_text(const Parameter& parameter);
 
 /// "[mm]"; empty for texts and ratios.
 [[nodiscard]] std::string unit_text(const Parameter& parameter);

@@ -9,11 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/errors.h"
-#include "geometry/kernel/printable.h"
 #include "geometry/kernel/wording.h"
-#include "workbench/case/arguments_json.h"
 #include "workbench/case/json_text.h"
-#include "workbench/case/near_names.h"
 
 namespace vesselbench {
 
@@ -75,8 +72,10 @@ Value value_in_text(const std::string& text, const std::string& called) {
     }
 }
 
-std::optional<Records> given_records(const Parameter& parameter, const Value& value,
-                                     const std::string& called) {
+}  // namespace
+
+std::optional<Records> records_from(const Parameter& parameter, const Value& value,
+                                    const std::string& called) {
     if (const auto* records = std::get_if<Records>(&value)) return *records;
     if (std::holds_alternative<bool>(value)) return std::nullopt;
     const std::string text = to_text(value);
@@ -84,46 +83,6 @@ std::optional<Records> given_records(const Parameter& parameter, const Value& va
     const Value read = value_in_text(text, called);
     if (const auto* records = std::get_if<Records>(&read)) return *records;
     return flat_records(parameter, to_text(read));
-}
-
-void require_known_fields(const Parameter& parameter, const Arguments& record,
-                          const std::string& called) {
-    std::vector<std::string> names;
-    for (const Parameter& field : parameter.fields) names.push_back(field.name);
-    for (const auto& [name, value] : record.values())
-        if (std::ranges::count(names, name) == 0)
-            throw UsageError(called + " has no field '" + shortened(printable(name)) + "'" +
-                             did_you_mean(name, names) + " (its fields are " + joined(names) + ")");
-}
-
-Arguments checked_record(const Parameter& parameter, const Arguments& record,
-                         const std::string& called) {
-    require_known_fields(parameter, record, called);
-    Arguments checked;
-    for (const Parameter& field : parameter.fields) {
-        const std::string field_called = called + ", field '" + field.name + "'";
-        const auto given = record.values().find(field.name);
-        if (given != record.values().end())
-            checked.set(field.name, checked_value(field, given->second, field_called));
-        else if (field.default_value)
-            checked.set(field.name, checked_value(field, *field.default_value, field_called));
-        else if (field.required)
-            throw UsageError(field_called + " is required: " + field.help);
-    }
-    return checked;
-}
-
-}  // namespace
-
-std::optional<Records> checked_records(const Parameter& parameter, const Value& value,
-                                       const std::string& called) {
-    const std::optional<Records> given = given_records(parameter, value, called);
-    if (!given) return std::nullopt;
-    std::vector<Arguments> checked;
-    for (const Arguments& record : given->list())
-        checked.push_back(checked_record(
-            parameter, record, called + ", record " + std::to_string(checked.size() + 1)));
-    return Records(std::move(checked));
 }
 
 }  // namespace vesselbench

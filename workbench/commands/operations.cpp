@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/wording.h"
-#include "workbench/case/arguments_json.h"
+#include "workbench/case/arguments.h"
 #include "workbench/case/json_text.h"
 #include "workbench/case/operation.h"
 #include "workbench/case/parameter_texts.h"

@@ -8,7 +8,7 @@
 #include "geometry/kernel/surface_distance.h"
 #include "geometry/kernel/wording.h"
 #include "workbench/case/argument_texts.h"
-#include "workbench/case/arguments_json.h"
+#include "workbench/case/arguments.h"
 #include "workbench/case/json_text.h"
 #include "workbench/case/operation.h"
 #include "workbench/commands/commands.h"

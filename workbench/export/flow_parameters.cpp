@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "geometry/kernel/errors.h"
+#include "workbench/case/checked_value.h"
 
 namespace vesselbench {
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/wording.h"
-#include "workbench/case/arguments_json.h"
+#include "workbench/case/arguments.h"
 #include "workbench/case/diagnostic_json.h"
 #include "workbench/case/diagnostic_words.h"
 #include "workbench/case/measure_json.h"

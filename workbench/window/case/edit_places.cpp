@@ -1,6 +1,7 @@
 #include "workbench/window/case/edit_places.h"
 
 #include "geometry/kernel/errors.h"
+#include "workbench/case/checked_value.h"
 #include "workbench/operations/shared/opening_arguments.h"
 #include "workbench/operations/table.h"
 #include "workbench/window/case/pick_target.h"

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "workbench/case/checked_value.h"
+
 namespace vesselbench {
 
 namespace {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "geometry/image/threshold.h"
+#include "workbench/case/checked_value.h"
 #include "workbench/window/form/field_text.h"
 
 namespace vesselbench {

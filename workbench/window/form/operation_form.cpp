@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "geometry/kernel/errors.h"
+#include "workbench/case/checked_value.h"
+#include "workbench/case/parameter_texts.h"
 #include "workbench/case/shell_text.h"
 
 namespace vesselbench {

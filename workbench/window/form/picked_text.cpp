@@ -5,6 +5,7 @@
 
 #include "geometry/kernel/errors.h"
 #include "workbench/case/argument_texts.h"
+#include "workbench/case/checked_value.h"
 #include "workbench/window/case/readable.h"
 #include "workbench/window/form/field_text.h"
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "workbench/case/checked_value.h"
 #include "workbench/operations/brush/dabs.h"
 #include "workbench/operations/table.h"
 
