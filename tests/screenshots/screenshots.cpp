@@ -1,6 +1,8 @@
 // Draws every screen of the window in both themes, at 1280 x 720 and at 3840 x 2160, through the
 // window without a display: FOLDER/<screen>-<theme>-<width>.png. What is shown is made by clicks.
-//   window_screenshots PROGRAM FOLDER [WORD]...   only the screens whose names contain a word
+//   window_screenshots PROGRAM FOLDER [SIZE]... [WORD]...
+//   SIZE  WIDTHxHEIGHT or WIDTHxHEIGHT@PERCENT of the text: 1024x700@150, instead of the usual two
+//   WORD  only the screens whose names contain a word
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +10,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,10 +33,26 @@ namespace fs = std::filesystem;
 
 struct Size {
     int width, height;
-    double scale;
+    double scale;    ///< of the display
+    int text = 100;  ///< [%]
 };
 
 constexpr Size kUsual{1280, 720, 1.0}, kLarge{3840, 2160, 2.0};
+
+/// The size that a word of the command line says; none: it is a part of a screen's name.
+std::optional<Size> size_from(const std::string& word) {
+    Size size = kUsual;
+    char rest = 0;
+    const int read =
+        std::sscanf(word.c_str(), "%dx%d@%d%c", &size.width, &size.height, &size.text, &rest);
+    if (read != 2 && read != 3) return std::nullopt;
+    return size;
+}
+
+std::string name_of(const Size& size) {
+    const std::string text = size.text == 100 ? "" : "-" + std::to_string(size.text);
+    return std::to_string(size.width) + text;
+}
 
 /// The home of the person who uses the window in the pictures; removed at the end.
 class Home {
@@ -68,10 +87,14 @@ AppOptions options(const fs::path& program) {
 
 class Photographer {
 public:
-    Photographer(const fs::path& program, fs::path folder, std::vector<std::string> words)
-        : shell(options(program), kUsual.width, kUsual.height),
-          folder_(std::move(folder)),
-          words_(std::move(words)) {
+    Photographer(const fs::path& program, fs::path folder, const std::vector<std::string>& words)
+        : shell(options(program), kUsual.width, kUsual.height), folder_(std::move(folder)) {
+        for (const std::string& word : words)
+            if (const auto size = size_from(word))
+                sizes_.push_back(*size);
+            else
+                words_.push_back(word);
+        if (sizes_.empty()) sizes_ = {kUsual, kLarge};
         fs::create_directories(folder_);
         shell.frame();
     }
@@ -82,7 +105,7 @@ public:
             return screen.find(word) != screen.npos;
         };
         if (!words_.empty() && std::ranges::none_of(words_, asked)) return;
-        for (const Size& size : {kUsual, kLarge})
+        for (const Size& size : sizes_)
             for (const bool dark : {true, false}) take(screen, size, dark);
         show(kUsual, true);
     }
@@ -148,6 +171,7 @@ public:
 private:
     void show(const Size& size, bool dark) {
         shell.app().place().settings.dark = dark;
+        shell.app().place().settings.scale = 0.01 * size.text;
         shell.app().set_display_scale(size.scale);
         shell.resize(size.width, size.height);
         shell.frame();
@@ -156,14 +180,15 @@ private:
 
     void take(const std::string& screen, const Size& size, bool dark) {
         show(size, dark);
-        const fs::path file = folder_ / (screen + (dark ? "-dark-" : "-light-") +
-                                         std::to_string(size.width) + ".png");
+        const fs::path file =
+            folder_ / (screen + (dark ? "-dark-" : "-light-") + name_of(size) + ".png");
         write_file(file, png(shell.picture()));
         std::printf("%s\n", file.c_str());
         std::fflush(stdout);
     }
 
     fs::path folder_;
+    std::vector<Size> sizes_;
     std::vector<std::string> words_;
 };
 
@@ -397,7 +422,7 @@ int run(const std::vector<std::string>& words) {
 
 int main(int count, char** words) {
     if (count < 3) {
-        std::fprintf(stderr, "usage: window_screenshots PROGRAM FOLDER [WORD]...\n");
+        std::fprintf(stderr, "usage: window_screenshots PROGRAM FOLDER [SIZE]... [WORD]...\n");
         return 2;
     }
     try {

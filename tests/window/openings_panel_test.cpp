@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <optional>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -20,6 +21,7 @@
 #include "tests/window/window_support.h"
 #include "tests/window/workplace_updates.h"
 #include "workbench/phantoms/phantom_json.h"
+#include "workbench/window/drawing/pixel_view.h"
 #include "workbench/window/features/handles/cut_handles.h"
 #include "workbench/window/features/openings/openings_feature.h"
 #include "workbench/window/keys/keys.h"
@@ -398,6 +400,26 @@ SCENARIO("Rows and markers of ends are clicked", "[window][openings]") {
             CHECK(wish(3) == EndWish::Closed);
         }
     }
+}
+
+SCENARIO("Marks of neighbouring ends do not lie on each other", "[window][openings]") {
+    const PixelView view{.camera = {}, .width = 400, .height = 300, .left = 50, .top = 20};
+    const std::vector<std::optional<ViewPixel>> ends = {
+        ViewPixel(200, 150), ViewPixel(205, 152), std::nullopt,        ViewPixel(200, 25),
+        ViewPixel(202, 149), ViewPixel(52, 318),  ViewPixel(204, 148), ViewPixel(900, 900)};
+    const auto marks = marks_apart(view, ends, 30, 24);
+    REQUIRE(marks.size() == ends.size());
+    CHECK((*marks[0] - ViewPixel(200, 120)).norm() < 1e-9);  // above, as there is room
+    CHECK_FALSE(marks[2]);
+    CHECK(marks[3]->y() > 25);  // below: the view ends above it
+    for (std::size_t i = 0; i + 1 < marks.size(); ++i) {
+        if (!marks[i]) continue;
+        CHECK(marks[i]->x() >= 62);
+        CHECK(marks[i]->y() <= 308);
+        for (std::size_t k = 0; k < i; ++k)
+            if (marks[k]) CHECK((*marks[i] - *marks[k]).norm() > 24);
+    }
+    CHECK((*marks[7] - ViewPixel(900, 870)).norm() < 1e-9);  // of an end out of sight
 }
 
 SCENARIO("The role that an opening has is the highlighted one", "[window][openings]") {

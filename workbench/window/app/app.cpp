@@ -88,6 +88,7 @@ struct App::Impl {
     std::string device;
     double display_scale = 1.0;
     bool moved = true;           ///< the last update changed something
+    bool banners_moved = false;  ///< in the last frame
     std::string recovered_from;  ///< the last error of a frame
 };
 
@@ -152,7 +153,8 @@ void App::Impl::draw_case(PanelContext& context, const Layout& layout) {
     if (layout.operation.width > 0) draw_operation_panel(context, layout.operation);
     if (layout.bottom.height > 0) draw_bottom_panel(context, layout.bottom);
     for (const Border& border : layout.borders) draw_border(context, border);
-    draw_banners(context, below);
+    const float end = draw_banners(context, Viewport::model_part(context, below));
+    banners_moved = std::exchange(shown.banners_end, end) != end;  // what lies below them follows
     draw_view_panel(context, below);
 }
 
@@ -201,8 +203,8 @@ void App::recover(const std::string& error) {
 }
 
 bool App::is_moving() const {
-    return impl_->moved || impl_->place.pending() || impl_->viewport.pending() ||
-           impl_->thumbnails.pending() || impl_->files.pending();
+    return impl_->moved || impl_->banners_moved || impl_->place.pending() ||
+           impl_->viewport.pending() || impl_->thumbnails.pending() || impl_->files.pending();
 }
 
 std::optional<double> App::next_change() const {

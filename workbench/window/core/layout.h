@@ -31,9 +31,6 @@ struct Layout {
 /// Width of a border [pixels].
 [[nodiscard]] float border_width(float em);
 
-/// Width of the buttons in the view's upper left corner with the gap beside them [em].
-inline constexpr float kViewToolsWidth = 19.5F;
-
 /// Of the view: the part of the model, and that of the slices below or around it.
 struct ViewParts {
     ScreenRect model;

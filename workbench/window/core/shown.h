@@ -41,6 +41,7 @@ struct Shown {
     std::set<EditId> unfolded;              ///< first edits of strokes that the rail lists singly
     bool view = false;                      ///< the view's options
     PictureLook picture;                    ///< of those that are saved
+    float banners_end = 0;                  ///< lower end of those in the view [pixels]; 0: none
     bool compact = false;                   ///< little room: tool buttons without labels
     KeyCommands keys;                       ///< of this frame
 };

@@ -30,7 +30,7 @@ ImVec2 corner_beside(const Ui& ui, const ScreenRect& room, const ScreenRect& car
 ScreenRect room_of(const Ui& ui, const ScreenRect& view) {
     const float pad = ui.grid(1), top = view.y + kBelowTools * ui.em;
     return {view.x + pad, top, view.width - 2 * pad,
-            std::max(orientation_top(ui, view) - pad - top, 1.0F)};
+            std::max(orientation_rect(ui, view).y - pad - top, 1.0F)};
 }
 
 }  // namespace

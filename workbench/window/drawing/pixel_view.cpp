@@ -1,6 +1,28 @@
 #include "workbench/window/drawing/pixel_view.h"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Geometry>
+
 namespace vesselbench {
+
+namespace {
+
+/// From above to below, then the same farther off.
+std::vector<ViewPixel> places_around(const ViewPixel& middle, double off) {
+    std::vector<ViewPixel> places;
+    for (const double reach : {off, 2.0 * off})
+        for (const double eighths : {0.0, 1.0, -1.0, 2.0, -2.0, 3.0, -3.0, 4.0}) {
+            const double turn = eighths * std::numbers::pi / 4.0;
+            places.emplace_back(middle.x() + reach * std::sin(turn),
+                                middle.y() - reach * std::cos(turn));
+        }
+    return places;
+}
+
+}  // namespace
 
 std::optional<ViewPixel> PixelView::place(const Vec3& point) const {
     const auto seen = project(camera, aspect(), point);
@@ -45,6 +67,29 @@ std::optional<std::size_t> nearest_to(const ViewPixel& cursor,
         nearest = i;
     }
     return nearest;
+}
+
+std::vector<std::optional<ViewPixel>> marks_apart(const PixelView& view,
+                                                  std::span<const std::optional<ViewPixel>> marked,
+                                                  double off, double size) {
+    const Eigen::AlignedBox2d room(
+        ViewPixel(view.left + size / 2, view.top + size / 2),
+        ViewPixel(view.left + view.width - size / 2, view.top + view.height - size / 2));
+    std::vector<std::optional<ViewPixel>> marks;
+    for (const auto& place : marked) {
+        std::optional<ViewPixel>& mark = marks.emplace_back();
+        if (!place) continue;
+        const std::vector<ViewPixel> candidates = places_around(*place, off);
+        const std::span<const std::optional<ViewPixel>> others(marks.data(), marks.size() - 1);
+        const auto inside = [&](const ViewPixel& at) { return room.contains(at); };
+        const auto free = [&](const ViewPixel& at) {
+            return inside(at) && !nearest_to(at, others, size);
+        };
+        auto chosen = std::ranges::find_if(candidates, free);
+        if (chosen == candidates.end()) chosen = std::ranges::find_if(candidates, inside);
+        mark = chosen == candidates.end() ? candidates.front() : *chosen;
+    }
+    return marks;
 }
 
 }  // namespace vesselbench

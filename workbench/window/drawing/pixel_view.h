@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -46,5 +47,13 @@ struct PixelView {
 /// than `reach` [pixels], or not seen.
 [[nodiscard]] std::optional<std::size_t> nearest_to(
     const ViewPixel& cursor, std::span<const std::optional<ViewPixel>> places, double reach);
+
+/// Places of marks that stand off what they mark, so that none lies on another or outside the view:
+/// above if that is free, else around it. The first ones choose first.
+/// \param off from the middle of a mark to what it marks [pixels]
+/// \param size of a mark [pixels]
+[[nodiscard]] std::vector<std::optional<ViewPixel>> marks_apart(
+    const PixelView& view, std::span<const std::optional<ViewPixel>> marked, double off,
+    double size);
 
 }  // namespace vesselbench

@@ -11,6 +11,9 @@ namespace vesselbench {
 
 namespace {
 
+/// Of a hint in the view's lowest line: the axes and the scale bar are there [em].
+constexpr float kHintMargin = 9.0F;
+
 /// An opening that is not round reaches farther than the circle of its area.
 constexpr double kLongOpening = 1.6;
 
@@ -123,7 +126,11 @@ void draw_plate(const Ui& ui, const ViewPixel& at, const std::string& words) {
 void draw_hint(const Ui& ui, const ScreenRect& view, const std::string& words) {
     const ImFont* font = ui.fonts.small;
     const float wide = font->CalcTextSizeA(font->FontSize, 1e6F, 0, words.c_str()).x;
-    draw_plate(ui, {view.middle_x() - wide / 2, view.y + view.height - ui.em}, words);
+    // Above the axes and the scale bar where it is as wide as the view.
+    const bool between = wide < view.width - 2 * ui.em * kHintMargin;
+    draw_plate(ui,
+               {view.middle_x() - wide / 2, view.y + view.height - ui.em * (between ? 1 : 3.2F)},
+               words);
 }
 
 }  // namespace vesselbench

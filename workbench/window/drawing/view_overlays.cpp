@@ -91,8 +91,10 @@ void draw_scale_bar(const Ui& ui, const ScreenRect& view, const ViewCamera& came
     centred_text(ui.fonts.small, {right - wide / 2, low - ui.em * 0.75F}, colour, length.text);
 }
 
-float orientation_top(const Ui& ui, const ScreenRect& view) {
-    return view.y + view.height - ui.em * (2 * kOrientation + kLetterRadius) - ui.grid(3);
+ScreenRect orientation_rect(const Ui& ui, const ScreenRect& view) {
+    const float side = 2 * ui.em * (kOrientation + kLetterRadius);
+    const float off = ui.grid(3) - ui.em * kLetterRadius;
+    return {view.x + off, view.y + view.height - off - side, side, side};
 }
 
 std::optional<StandardView> draw_orientation(Ui& ui, const ScreenRect& view,
@@ -115,7 +117,18 @@ std::optional<StandardView> draw_orientation(Ui& ui, const ScreenRect& view,
     return clicked;
 }
 
-void draw_colour_legend(const Ui& ui, const ScreenRect& view, const ColourLegend& legend) {
+ToolGrid tool_grid(const Ui& ui, const ScreenRect& view, int buttons) {
+    const float pad = ui.grid(0.5F), edge = ui.grid(1.5F), gap = ui.grid(0.25F);
+    const float step = ImGui::GetFrameHeight() + gap;
+    const auto fitting = static_cast<int>((view.width - 2 * (pad + edge) + gap) / step);
+    const int columns = std::clamp(fitting, 1, buttons);
+    const int rows = (buttons + columns - 1) / columns;
+    return {{view.x + edge, view.y + edge, static_cast<float>(columns) * step - gap + 2 * pad,
+             static_cast<float>(rows) * step - gap + 2 * pad},
+            columns};
+}
+
+ScreenRect draw_colour_legend(const Ui& ui, const ScreenRect& view, const ColourLegend& legend) {
     constexpr int kSteps = 64;
     const float wide = ui.em * 14, high = ui.em * 0.8F;
     const float left = view.x + view.width - wide - ui.grid(3), top = view.y + ui.grid(7.5F);
@@ -138,6 +151,8 @@ void draw_colour_legend(const Ui& ui, const ScreenRect& view, const ColourLegend
     }
     if (!legend.remark.empty())
         centred_text(ui.fonts.small, {left + wide / 2, low + ui.em}, ui.theme.text, legend.remark);
+    const float lines = legend.remark.empty() ? 0.6F : 1.6F;
+    return {left, top - 1.3F * ui.em, wide, low + lines * ui.em - top + 1.3F * ui.em};
 }
 
 }  // namespace vesselbench

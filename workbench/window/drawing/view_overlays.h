@@ -26,8 +26,19 @@ void draw_scale_bar(const Ui& ui, const ScreenRect& view, const ViewCamera& came
 [[nodiscard]] std::optional<StandardView> draw_orientation(Ui& ui, const ScreenRect& view,
                                                            const ViewCamera& camera);
 
-/// The upper end of the axes' letters [pixels].
-[[nodiscard]] float orientation_top(const Ui& ui, const ScreenRect& view);
+/// Where the axes and their letters are.
+[[nodiscard]] ScreenRect orientation_rect(const Ui& ui, const ScreenRect& view);
+
+/// The most buttons in the view's upper left corner.
+inline constexpr int kViewTools = 8;
+
+/// Where they are, in as many rows as a narrow view asks for.
+struct ToolGrid {
+    ScreenRect rect;  ///< of the plate under them
+    int columns = 1;
+};
+
+[[nodiscard]] ToolGrid tool_grid(const Ui& ui, const ScreenRect& view, int buttons = kViewTools);
 
 /// The meaning of a colour map.
 struct ColourLegend {
@@ -37,7 +48,9 @@ struct ColourLegend {
     std::string remark;              ///< under it: "3 % above the range"; may be empty
 };
 
-/// The colours with their values, in the upper right corner.
-void draw_colour_legend(const Ui& ui, const ScreenRect& view, const ColourLegend& legend);
+inline constexpr float kLegendWidth = 17.0F, kLegendHeight = 7.5F;  ///< with its margins [em]
+
+/// The colours with their values, in the upper right corner. \return where they are
+ScreenRect draw_colour_legend(const Ui& ui, const ScreenRect& view, const ColourLegend& legend);
 
 }  // namespace vesselbench

@@ -121,15 +121,20 @@ void edit(const FieldPanel& p, const FormField& field) {
     }
 }
 
-void draw_label(const PanelContext& c, const FormField& field, float width) {
+/// \param width of the label's column
+/// \return false if the label is too long for it: the field follows in the next line
+bool draw_label(const PanelContext& c, const FormField& field, float width) {
     const Ui& ui = c.ui;
     const bool given = !field.text.empty();
     ImGui::AlignTextToFramePadding();
     ImGui::PushFont(given ? ui.fonts.medium : ui.fonts.regular);
     const std::string name =
         readable(field.parameter->name) + (field.parameter->required && !given ? " *" : "");
-    text(ui, fitted(name, width), given ? ui.theme.text : ui.theme.muted);
+    const bool fits = ImGui::CalcTextSize(name.c_str()).x <= width;
+    text(ui, fitted(name, ImGui::GetContentRegionAvail().x),
+         given ? ui.theme.text : ui.theme.muted);
     ImGui::PopFont();
+    return fits;
 }
 
 /// \return true if the mouse or the keyboard is in the field's line
@@ -137,12 +142,14 @@ bool draw_field(const FieldPanel& p, const FormField& field) {
     const float whole = ImGui::GetContentRegionAvail().x, label = whole * 0.4F;
     const float left = ImGui::GetCursorPosX();
     const ImVec2 from = ImGui::GetCursorScreenPos();
-    draw_label(p.c, field, label - p.c.ui.grid(1));
-    ImGui::SameLine(left + label);
+    if (draw_label(p.c, field, label - p.c.ui.grid(1)))
+        ImGui::SameLine(left + label);
+    else
+        ImGui::SetCursorPosX(left + label);
     edit(p, field);
     const bool typing = ImGui::IsItemActive();
     const bool over = ImGui::IsMouseHoveringRect(
-        from, {from.x + whole, from.y + ImGui::GetFrameHeight() + ImGui::GetStyle().ItemSpacing.y});
+        from, {from.x + whole, ImGui::GetItemRectMax().y + ImGui::GetStyle().ItemSpacing.y});
     if (lists_labels(p.c, field)) draw_label_rows(p.c, field);
     if (!field.error.empty()) {
         wrapped(p.c.ui, field.error, p.c.ui.theme.danger);

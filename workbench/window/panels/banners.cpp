@@ -10,6 +10,7 @@
 #include "workbench/window/core/layout.h"
 #include "workbench/window/core/remedies.h"
 #include "workbench/window/core/shown.h"
+#include "workbench/window/drawing/view_overlays.h"
 #include "workbench/window/features/gallery/gallery_view.h"
 #include "workbench/window/panels/message_panel.h"
 #include "workbench/window/panels/unit_banner.h"
@@ -127,10 +128,18 @@ void draw_preview(PanelContext& c, ScreenRect& place) {
     draw_banner(c.ui, "preview", banner, place);
 }
 
-/// Below the view's buttons: the magnified spots leave no room beside them.
-ScreenRect beside_spots(const Ui& ui, const ScreenRect& view, float gap) {
-    return {view.x + gap, view.y + 2 * gap + ImGui::GetFrameHeight() + ui.grid(1),
-            view.width - magnified_width(view) - 2 * gap, 0};
+/// A banner narrower than this is put below the view's buttons [em].
+constexpr float kLeastBanner = 20.0F;
+
+/// Beside the view's buttons, or below them where no room is left for its text.
+ScreenRect banner_place(const PanelContext& c, const ScreenRect& model) {
+    const float gap = c.ui.grid(1.5F);
+    const bool spots = c.place.gallery().mode() == GalleryMode::Spots;
+    const float end = model.x + model.width - (spots ? magnified_width(model) : 0.0F) - gap;
+    const ScreenRect tools = tool_grid(c.ui, model).rect;
+    const float beside = tools.x + tools.width + gap;
+    if (end - beside >= kLeastBanner * c.ui.em) return {beside, tools.y, end - beside, 0};
+    return {model.x + gap, tools.y + tools.height + gap, end - model.x - gap, 0};
 }
 
 }  // namespace
@@ -150,13 +159,12 @@ ScreenRect draw_banner_strip(PanelContext& c, const ScreenRect& view) {
     return left;
 }
 
-void draw_banners(PanelContext& c, const ScreenRect& view) {
+float draw_banners(PanelContext& c, const ScreenRect& model) {
     const Document& document = c.place.document;
-    if (!document.is_open()) return;
+    if (!document.is_open()) return 0;
     const float gap = c.ui.grid(1.5F);
-    const float tools = c.ui.em * kViewToolsWidth;
-    ScreenRect place{view.x + tools, view.y + gap, view.width - tools - gap, 0};
-    if (c.place.gallery().mode() == GalleryMode::Spots) place = beside_spots(c.ui, view, gap);
+    ScreenRect place = banner_place(c, model);
+    const float top = place.y;
     if (document.failure() && !is_about_form(c)) {
         draw_failure(c, place);
         place.y += place.height + gap;
@@ -167,7 +175,11 @@ void draw_banners(PanelContext& c, const ScreenRect& view) {
         const float height = whole ? 0.0F : feature->banner(c, place);
         if (height > 0.0F) place.y += height + gap;
     }
-    if (document.previewed() && !whole) draw_preview(c, place);
+    if (document.previewed() && !whole) {
+        draw_preview(c, place);
+        place.y += place.height + gap;
+    }
+    return place.y > top ? place.y - gap : 0;
 }
 
 }  // namespace vesselbench

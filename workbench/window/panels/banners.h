@@ -10,7 +10,8 @@ namespace vesselbench {
 /// \return what is left of the view
 [[nodiscard]] ScreenRect draw_banner_strip(PanelContext& context, const ScreenRect& view);
 
-/// Failures with their remedies, comparisons and previews, over the view.
-void draw_banners(PanelContext& context, const ScreenRect& view);
+/// Failures with their remedies, comparisons and previews, over the model's part of the view.
+/// \return their lower end [pixels]; 0: there is none
+[[nodiscard]] float draw_banners(PanelContext& context, const ScreenRect& model);
 
 }  // namespace vesselbench

@@ -1,6 +1,8 @@
 #include "workbench/window/panels/bottom_panel.h"
 
 #include <algorithm>
+#include <array>
+#include <string>
 
 #include <imgui.h>
 
@@ -18,11 +20,21 @@ namespace vesselbench {
 
 namespace {
 
-void draw_tab(PanelContext& c, const std::string& name, const char* icon, const std::string& label,
-              BottomTab tab) {
-    const bool chosen = c.shown.bottom == tab;
+struct Tab {
+    const char* name;
+    const char* icon;
+    std::string label;
+    BottomTab tab;
+};
+
+/// \param named with its label, else as an icon
+void draw_tab(PanelContext& c, const Tab& tab, bool named) {
+    const bool chosen = c.shown.bottom == tab.tab;
     ImGui::PushFont(chosen ? c.ui.fonts.medium : c.ui.fonts.regular);
-    if (button(c.ui, name, label, {.icon = icon, .quiet = true})) c.shown.bottom = tab;
+    const bool clicked = named
+                             ? button(c.ui, tab.name, tab.label, {.icon = tab.icon, .quiet = true})
+                             : icon_button(c.ui, tab.name, tab.icon, tab.label);
+    if (clicked) c.shown.bottom = tab.tab;
     ImGui::PopFont();
     if (!chosen) return;
     const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
@@ -43,17 +55,26 @@ std::string measure_label(const MeasureList& measures) {
     return count == 0 ? "Measurements" : "Measurements (" + std::to_string(count) + ")";
 }
 
+void draw_tabs(PanelContext& c) {
+    const std::array<Tab, 3> tabs = {
+        {{"tab.history", icons::kHistory, "History", BottomTab::History},
+         {"tab.messages", icons::kMessages, message_label(c.place.document), BottomTab::Messages},
+         {"tab.measures", icons::kRuler, measure_label(c.place.measures()), BottomTab::Measures}}};
+    float wide = 0;
+    for (const Tab& tab : tabs) wide += ImGui::CalcTextSize(tab.label.c_str()).x + c.ui.em * 3.2F;
+    const bool room = wide < ImGui::GetContentRegionAvail().x;
+    for (const Tab& tab : tabs) {
+        draw_tab(c, tab, room || c.shown.bottom == tab.tab);
+        ImGui::SameLine();
+    }
+    ImGui::NewLine();
+}
+
 }  // namespace
 
 void draw_bottom_panel(PanelContext& c, const ScreenRect& rect) {
     begin_frame(c.ui, "bottom", rect, {.padding = c.ui.grid(0.5F), .scrolls = false});
-    draw_tab(c, "tab.history", icons::kHistory, "History", BottomTab::History);
-    ImGui::SameLine();
-    draw_tab(c, "tab.messages", icons::kMessages, message_label(c.place.document),
-             BottomTab::Messages);
-    ImGui::SameLine();
-    draw_tab(c, "tab.measures", icons::kRuler, measure_label(c.place.measures()),
-             BottomTab::Measures);
+    draw_tabs(c);
     ImGui::SetCursorPosY(ImGui::GetCursorPosY() - c.ui.grid(0.5F));
     separator(c.ui);
     ImGui::BeginChild("bottom content");

@@ -129,8 +129,9 @@ void draw_buttons(PanelContext& c, bool possible) {
     ImGui::SetCursorPosX(ImGui::GetWindowWidth() - c.ui.grid(2.5F) - 2 * width - c.ui.grid(1));
     if (button(c.ui, "prepare.cancel", "Cancel", {.width = width})) c.shown.prepare = false;
     ImGui::SameLine(0, c.ui.grid(1));
+    const bool ready = possible && !recipe.forms().empty() && recipe.error().empty();
     if (!button(c.ui, "prepare.run", "Prepare",
-                {.primary = true, .enabled = possible && recipe.error().empty(), .width = width}))
+                {.primary = true, .enabled = ready, .width = width}))
         return;
     c.place.leave_form();
     c.place.document.prepare(c.shown.purpose, std::exchange(c.shown.again_from, std::nullopt),

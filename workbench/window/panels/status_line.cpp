@@ -24,12 +24,17 @@ std::string grouped(std::size_t number) {
 
 namespace {
 
+constexpr float kProgressShare = 0.55F;  ///< of the line, for what runs
+
 float text_top(const Ui& ui) {
     return (ImGui::GetWindowHeight() - ui.em) / 2;
 }
 
-void figure(const Ui& ui, const std::string& name, const std::string& value,
+/// Nothing where there is no room for it before `end` [pixels].
+void figure(const Ui& ui, float end, const std::string& name, const std::string& value,
             const std::string& help = {}) {
+    const float wide = ImGui::CalcTextSize(name.c_str()).x + ImGui::CalcTextSize(value.c_str()).x;
+    if (ImGui::GetCursorPosX() + wide + ui.grid(1.75F) > end) return;
     text(ui, name, ui.theme.muted);
     ImGui::SameLine(0, ui.grid(0.75F));
     text(ui, value, ui.theme.text);
@@ -46,24 +51,26 @@ void draw_inside_out(Ui& ui) {
     ImGui::SameLine(0, ui.grid(3));
 }
 
-void draw_figures(PanelContext& c) {
+/// \param end where the room for them ends [pixels]
+void draw_figures(PanelContext& c, float end) {
     const Document& document = c.place.document;
     const Scene* scene = document.shown();
     if (scene == nullptr) return;
-    if (scene->surface) figure(c.ui, "Triangles", grouped(scene->surface->triangle_count()));
+    if (scene->surface) figure(c.ui, end, "Triangles", grouped(scene->surface->triangle_count()));
     if (scene->volume_mesh)
-        figure(c.ui, "Tetrahedra", grouped(scene->volume_mesh->tetrahedra.size()));
+        figure(c.ui, end, "Tetrahedra", grouped(scene->volume_mesh->tetrahedra.size()));
     const ShownFigures& figures = document.figures();
     const SurfaceChange* change =
         document.previewed() ? &document.previewed()->result().change : nullptr;
     const auto volume = change != nullptr ? change->volume_after : figures.volume;
-    if (volume) figure(c.ui, "Volume", formatted(*volume, "%.1f mm\u00B3"));
+    if (volume) figure(c.ui, end, "Volume", formatted(*volume, "%.1f mm\u00B3"));
     if (change == nullptr && figures.inside_out) draw_inside_out(c.ui);
     if (change != nullptr && change->largest_deviation)
-        figure(c.ui, "Preview differs by up to", formatted(*change->largest_deviation, "%.3f mm"));
+        figure(c.ui, end, "Preview differs by up to",
+               formatted(*change->largest_deviation, "%.3f mm"));
     else if (figures.deviation)
         figure(
-            c.ui, "Deviation from source",
+            c.ui, end, "Deviation from source",
             formatted(figures.deviation->mean, "mean %.3f, ") +
                 formatted(figures.deviation->largest, "largest %.3f mm"),
             "Distance of the shown wall from the source, without removed parts and what was made "
@@ -104,11 +111,20 @@ void draw_news(PanelContext& c, float width) {
     c.ui.item("status.news");
 }
 
+std::string device_words(const PanelContext& c) {
+    return fitted("mm    " + c.device, c.ui.em * 20);
+}
+
+/// Where the words about the device begin.
+float device_place(const PanelContext& c, float width) {
+    return width - ImGui::CalcTextSize(device_words(c).c_str()).x - c.ui.grid(2);
+}
+
 /// The newest message and the device.
 void draw_idle(PanelContext& c, float width) {
     const Ui& ui = c.ui;
-    const std::string words = fitted("mm    " + c.device, ui.em * 20);
-    const float device = width - ImGui::CalcTextSize(words.c_str()).x - ui.grid(2);
+    const std::string words = device_words(c);
+    const float device = device_place(c, width);
     if (c.place.document.is_open()) draw_news(c, device - ImGui::GetCursorPosX() - ui.grid(3));
     ImGui::SetCursorPos({device, text_top(ui)});
     text(ui, words, ui.theme.muted);
@@ -121,9 +137,10 @@ void draw_status_line(PanelContext& c, const ScreenRect& rect) {
     begin_frame(c.ui, "status", rect, {.padding = 0, .scrolls = false});
     ImGui::PushFont(c.ui.fonts.small);
     ImGui::SetCursorPos({c.ui.grid(2), text_top(c.ui)});
-    draw_figures(c);
-    if (const auto activity = c.place.document.activity())
-        draw_progress(c, *activity, rect.width * 0.55F);
+    const auto activity = c.place.document.activity();
+    draw_figures(c, activity ? rect.width * (1 - kProgressShare) : device_place(c, rect.width));
+    if (activity)
+        draw_progress(c, *activity, rect.width * kProgressShare);
     else
         draw_idle(c, rect.width);
     ImGui::PopFont();

@@ -103,14 +103,14 @@ std::string label_of(const std::string& variant) {
     return purpose == purposes().end() ? variant : purpose->title;
 }
 
-constexpr float kVariant = 16.0F;  ///< [em]
+constexpr float kVariant = 16.0F, kLeastVariant = 5.0F;  ///< width [em]
 
-void draw_variant(PanelContext& c) {
+void draw_variant(PanelContext& c, float width) {
     const std::vector<std::string> variants = variants_of(c.place.document);
     std::vector<std::string> labels;
     for (const std::string& variant : variants) labels.push_back(label_of(variant));
     std::string chosen = label_of(c.place.document.variant());
-    if (choice(c.ui, "tool.variant", labels, chosen, c.ui.em * kVariant)) {
+    if (choice(c.ui, "tool.variant", labels, chosen, width)) {
         const auto index = std::ranges::find(labels, chosen) - labels.begin();
         c.place.document.show_variant(variants[static_cast<std::size_t>(index)]);
     }
@@ -154,10 +154,13 @@ void draw_right_end(PanelContext& c, const ScreenRect& rect) {
     const Ui& ui = c.ui;
     const float frame = ImGui::GetFrameHeight(), gap = ImGui::GetStyle().ItemSpacing.x;
     const bool open = c.place.document.is_open();
-    const float variant = open ? ui.em * kVariant + gap * 2 : 0;
-    ImGui::SameLine(rect.width - ui.grid(1) - 3 * frame - 2 * gap - variant);
+    const float end = rect.width - ui.grid(1) - 3 * frame - 2 * gap;
+    ImGui::SameLine(0, 2 * gap);
+    const float room = end - 2 * gap - ImGui::GetCursorPosX();
+    const float variant = std::clamp(room, ui.em * kLeastVariant, ui.em * kVariant);
+    ImGui::SameLine(open ? end - 2 * gap - variant : end);
     if (open) {
-        draw_variant(c);
+        draw_variant(c, variant);
         ImGui::SameLine(0, gap * 2);
     }
     draw_text_size(c);

@@ -1,11 +1,11 @@
 #include "workbench/window/view/view_tools.h"
 
+#include <algorithm>
 #include <string>
 
 #include <imgui.h>
 
 #include "workbench/operations/table.h"
-#include "workbench/window/core/layout.h"
 #include "workbench/window/core/shown.h"
 #include "workbench/window/drawing/view_overlays.h"
 #include "workbench/window/style/icons.h"
@@ -17,49 +17,59 @@ namespace vesselbench {
 
 namespace {
 
-bool draw_tool(PanelContext& c, const std::string& name, const char* icon, const std::string& help,
-               bool on) {
-    ImGui::SameLine(0, c.ui.grid(0.25F));
-    return icon_button(c.ui, name, icon, help, true, on);
+/// The buttons in the view's corner.
+class Tools {
+public:
+    Tools(PanelContext& context, const ScreenRect& view, int count)
+        : c(context), grid_(tool_grid(context.ui, view, count)) {
+        const ScreenRect& plate = grid_.rect;
+        ImGui::GetWindowDrawList()->AddRectFilled(
+            {plate.x, plate.y}, {plate.x + plate.width, plate.y + plate.height},
+            faded(c.ui.theme.panel, 0.9), ImGui::GetStyle().FrameRounding);
+    }
+
+    bool button(const std::string& name, const char* icon, const std::string& help,
+                bool on = false) {
+        const float pad = c.ui.grid(0.5F), step = ImGui::GetFrameHeight() + c.ui.grid(0.25F);
+        ImGui::SetCursorScreenPos(
+            {grid_.rect.x + pad + static_cast<float>(drawn_ % grid_.columns) * step,
+             grid_.rect.y + pad + static_cast<float>(drawn_ / grid_.columns) * step});
+        ++drawn_;
+        return icon_button(c.ui, name, icon, help, true, on);
+    }
+
+    /// A button that switches something.
+    void toggle(const std::string& name, const char* icon, const std::string& help, bool& on) {
+        if (button(name, icon, help, on)) on = !on;
+    }
+
+    PanelContext& c;
+
+private:
+    ToolGrid grid_;
+    int drawn_ = 0;
+};
+
+void draw_layer_switches(Tools& tools) {
+    Settings& settings = tools.c.place.settings;
+    const ShownLayers before = settings.layers;
+    tools.toggle("view.edges", icons::kGrid, "Triangle edges", settings.layers.edges);
+    tools.toggle("view.flat", icons::kFlat, "Flat shading", settings.layers.flat);
+    if (settings.layers != before) settings.save_soon();
 }
 
-/// A button that switches something.
-void draw_switch(PanelContext& c, const std::string& name, const char* icon,
-                 const std::string& help, bool& on) {
-    if (draw_tool(c, name, icon, help, on)) on = !on;
-}
-
-/// The plate under so many buttons, at whose first one ImGui's cursor is put.
-void draw_back(const Ui& ui, const ScreenRect& view, float count) {
-    const float pad = ui.grid(0.5F), side = ImGui::GetFrameHeight();
-    const float width = count * side + (count - 1) * ui.grid(0.25F) + 2 * pad;
-    const ImVec2 at{view.x + ui.grid(1.5F), view.y + ui.grid(1.5F)};
-    ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + width, at.y + side + 2 * pad},
-                                              faded(ui.theme.panel, 0.9),
-                                              ImGui::GetStyle().FrameRounding);
-    ImGui::SetCursorScreenPos({at.x + pad, at.y + pad});
-}
-
-void draw_layer_switches(PanelContext& c) {
-    ShownLayers& layers = c.place.settings.layers;
-    const ShownLayers before = layers;
-    draw_switch(c, "view.edges", icons::kGrid, "Triangle edges", layers.edges);
-    draw_switch(c, "view.flat", icons::kFlat, "Flat shading", layers.flat);
-    if (layers != before) c.place.settings.save_soon();
-}
-
-void draw_colour_switch(PanelContext& c) {
-    ViewChoice& choice = c.place.view;
+void draw_colour_switch(Tools& tools) {
+    ViewChoice& choice = tools.c.place.view;
     const bool coloured = choice.colouring != ColouringKind::Patches;
     const std::string help = std::string("Colours: ") + colouring_info(choice.last_colouring).label;
-    if (draw_tool(c, "view.deviation", icons::kPalette, help, coloured))
+    if (tools.button("view.deviation", icons::kPalette, help, coloured))
         choice.choose(coloured ? ColouringKind::Patches : choice.last_colouring);
 }
 
-void draw_slice_switch(PanelContext& c) {
-    ImageSlices& slices = c.place.slices();
+void draw_slice_switch(Tools& tools) {
+    ImageSlices& slices = tools.c.place.slices();
     const bool shown = slices.any_in_space();
-    if (draw_tool(c, "view.slices", icons::kImage, "Planes of the image  Shift+I", shown))
+    if (tools.button("view.slices", icons::kImage, "Planes of the image  Shift+I", shown))
         slices.show_in_space(!shown);
 }
 
@@ -108,39 +118,43 @@ std::string empty_words(const PanelContext& c, const ViewScene& scene) {
 ToolRequests draw_view_tools(PanelContext& c, const ScreenRect& view, bool perspective) {
     ToolRequests asked;
     const bool has_image = c.place.slices().has_image();
-    draw_back(c.ui, view, has_image ? 8.0F : 7.0F);
-    asked.frame = icon_button(c.ui, "view.fit", icons::kFit, "Show everything  Home");
-    draw_layer_switches(c);
-    draw_switch(c, "view.transparent", icons::kTransparent, "Transparent",
-                c.place.view.transparent);
-    draw_colour_switch(c);
+    Tools tools(c, view, has_image ? kViewTools : kViewTools - 1);
+    asked.frame = tools.button("view.fit", icons::kFit, "Show everything  Home");
+    draw_layer_switches(tools);
+    tools.toggle("view.transparent", icons::kTransparent, "Transparent", c.place.view.transparent);
+    draw_colour_switch(tools);
     asked.switch_perspective =
-        draw_tool(c, "view.perspective", icons::kPerspective, "Perspective  5", perspective);
-    draw_switch(c, "view.options", icons::kLayers,
-                "Colours, sections, overlays and measurements  V", c.shown.view);
-    if (has_image) draw_slice_switch(c);
+        tools.button("view.perspective", icons::kPerspective, "Perspective  5", perspective);
+    tools.toggle("view.options", icons::kLayers, "Colours, sections, overlays and measurements  V",
+                 c.shown.view);
+    if (has_image) draw_slice_switch(tools);
     return asked;
 }
 
-void draw_legend(const PanelContext& c, const ViewScene& scene, ClippedCount& clipped) {
-    if (scene.hides_model()) return;
+ScreenRect draw_legend(const PanelContext& c, const ViewScene& scene, ClippedCount& clipped) {
+    if (scene.hides_model()) return {};
     const auto legend = legend_of(c, scene, clipped);
-    if (!legend) return;
+    if (!legend) return {};
     ScreenRect place = scene.rect();
-    if (scene.compared().colours_model()) place.y += c.ui.em * 1.5F;             // below its banner
-    if (c.place.document.stands_before() != nullptr) place.y += c.ui.em * 3.5F;  // its banner
-    const bool live = c.place.live().follows() || c.place.extraction().follows();
-    if (live) place.y += c.ui.em * (scene.gallery().magnifies() ? 6.5F : 3.5F);  // below its banner
-    draw_colour_legend(c.ui, place, *legend);
+    const ScreenRect tools = tool_grid(c.ui, place).rect;
+    const bool beside = tools.x + tools.width + kLegendWidth * c.ui.em < place.x + place.width;
+    place.y =
+        std::max(beside ? place.y : tools.y + tools.height - c.ui.grid(4), c.shown.banners_end);
+    const float end = scene.rect().y + scene.rect().height;
+    if (place.y + kLegendHeight * c.ui.em > end) return {};
+    return draw_colour_legend(c.ui, place, *legend);
 }
 
 void draw_empty_view(PanelContext& c, const ViewScene& scene) {
     const ScreenRect& rect = scene.rect();
-    const float wide = c.ui.em * 12, x = rect.middle_x(), y = rect.middle_y();
+    const float x = rect.middle_x(), y = rect.middle_y();
+    float wide = c.ui.em * 12;
     if (scene.has_content()) {  // the image's planes; beside them, and below buttons without room
         const float gap = c.ui.grid(1.5F);
-        const bool beside = rect.width > kViewToolsWidth * c.ui.em + wide + 2 * gap;
-        const float below = beside ? 0.0F : ImGui::GetFrameHeight() + c.ui.grid(3);
+        const ScreenRect tools = tool_grid(c.ui, rect).rect;
+        const bool beside = tools.x + tools.width + wide + 2 * gap < rect.x + rect.width;
+        const float below = beside ? 0.0F : tools.height + c.ui.grid(1);
+        wide = std::min(wide, rect.width - 2 * gap);
         ImGui::SetCursorScreenPos({rect.x + rect.width - wide - gap, rect.y + gap + below});
     } else {
         const std::string words = empty_words(c, scene);

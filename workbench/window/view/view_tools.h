@@ -16,8 +16,10 @@ struct ToolRequests {
 [[nodiscard]] ToolRequests draw_view_tools(PanelContext& context, const ScreenRect& view,
                                            bool perspective);
 
-/// What the colours mean. \param clipped remembers its count from frame to frame
-void draw_legend(const PanelContext& context, const ViewScene& scene, ClippedCount& clipped);
+/// What the colours mean, if the view has room for it.
+/// \param clipped remembers its count from frame to frame
+/// \return where it is; empty: nowhere
+ScreenRect draw_legend(const PanelContext& context, const ViewScene& scene, ClippedCount& clipped);
 
 /// What to do while there is no surface.
 void draw_empty_view(PanelContext& context, const ViewScene& scene);

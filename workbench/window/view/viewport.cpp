@@ -310,9 +310,12 @@ void Viewport::Impl::draw_frame(PanelContext& c, const ScreenRect& area) {
     scene.gallery().draw_plates(c);
     const ScreenRect rect = scene.gallery().above_plates(scene.rect());
     if (!camera.is_inside()) draw_scale_bar(c.ui, rect, camera.camera());
-    if (const auto side = draw_orientation(c.ui, rect, camera.camera())) camera.face(*side);
+    const ScreenRect legend = draw_legend(c, scene, clipped), axes = orientation_rect(c.ui, rect);
+    const bool free = !axes.overlaps(tool_grid(c.ui, area).rect) && !axes.overlaps(legend) &&
+                      axes.y > c.shown.banners_end;
+    if (free)
+        if (const auto side = draw_orientation(c.ui, rect, camera.camera())) camera.face(*side);
     scene.compared().draw_labels(c.ui, area);
-    draw_legend(c, scene, clipped);
 }
 
 /// \return true if this frame is the picture
@@ -349,14 +352,29 @@ void Viewport::Impl::draw(PanelContext& c, const ScreenRect& area) {
     if (camera.is_flying() && ask_for_frame) ask_for_frame();
 }
 
-void Viewport::draw(PanelContext& c, const ScreenRect& whole) {
+namespace {
+
+/// The parts of a view with slices; none: the model takes all of it.
+std::optional<ViewParts> parts_of(const PanelContext& c, const ScreenRect& whole) {
     // The gallery needs the height.
     const bool sliced = c.place.slices().in_row() && c.place.gallery().mode() == GalleryMode::Off;
-    if (!sliced || c.shown.enlarged == Enlarged::Model) return impl_->draw(c, whole);
-    const ViewParts parts = view_parts(whole, c.ui.em, c.core.settings.panels, c.shown.enlarged);
-    impl_->draw(c, parts.model);
-    impl_->slice_row.draw(c, {impl_->renderer, impl_->scene.planes(), impl_->guard}, parts);
-    if (parts.border) draw_border(c, *parts.border);
+    if (!sliced || c.shown.enlarged == Enlarged::Model) return std::nullopt;
+    return view_parts(whole, c.ui.em, c.core.settings.panels, c.shown.enlarged);
+}
+
+}  // namespace
+
+ScreenRect Viewport::model_part(const PanelContext& c, const ScreenRect& whole) {
+    const auto parts = parts_of(c, whole);
+    return parts ? parts->model : whole;
+}
+
+void Viewport::draw(PanelContext& c, const ScreenRect& whole) {
+    const auto parts = parts_of(c, whole);
+    impl_->draw(c, parts ? parts->model : whole);
+    if (!parts) return;
+    impl_->slice_row.draw(c, {impl_->renderer, impl_->scene.planes(), impl_->guard}, *parts);
+    if (parts->border) draw_border(c, *parts->border);
 }
 
 void Viewport::rest(PanelContext& c) {

@@ -24,6 +24,10 @@ public:
 
     void draw(PanelContext& context, const ScreenRect& whole);
 
+    /// The part of the whole that shows the model: slices may take the rest.
+    [[nodiscard]] static ScreenRect model_part(const PanelContext& context,
+                                               const ScreenRect& whole);
+
     /// In place of draw() while no case is open: forgets the last one, and frees what it had on the
     /// device.
     void rest(PanelContext& context);

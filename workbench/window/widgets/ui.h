@@ -16,6 +16,11 @@ struct ScreenRect {
 
     [[nodiscard]] float middle_y() const { return y + height / 2; }
 
+    [[nodiscard]] bool overlaps(const ScreenRect& other) const {
+        return x < other.x + other.width && other.x < x + width && y < other.y + other.height &&
+               other.y < y + height;
+    }
+
     bool operator==(const ScreenRect&) const = default;
 };
 

@@ -266,7 +266,10 @@ float GalleryView::draw_plate(PanelContext& c, const ScreenRect& part, std::size
     const std::string words = found && hides_model() ? plate_text(*found, wide) : "";
     const float text_high = !words.empty() ? ImGui::CalcTextSize(words.c_str()).y + pad : 0.0F;
     ImGui::PopFont();
-    const float high = ImGui::GetFrameHeight() + text_high + 2 * pad;
+    // The name is not cut: the button goes below where it has no room beside it.
+    const bool beside = narrow <= wide;
+    const float row = ImGui::GetFrameHeight();
+    const float high = row + text_high + 2 * pad + (beside ? 0.0F : row + pad);
     const ImVec2 from{part.x + margin, part.y + part.height - high - margin};
     ImGui::GetWindowDrawList()->AddRectFilled(from, {from.x + wide + 2 * pad, from.y + high},
                                               faded(ui.theme.panel, 0.9),
@@ -277,7 +280,8 @@ float GalleryView::draw_plate(PanelContext& c, const ScreenRect& part, std::size
     const float below = from.y + pad + ImGui::GetFrameHeight() + pad;
     ImGui::GetWindowDrawList()->AddText(ui.fonts.small, ui.fonts.small->FontSize,
                                         {from.x + pad, below}, ui.theme.muted, words.c_str());
-    ImGui::SetCursorScreenPos({from.x + pad + wide - button_wide, from.y + pad});
+    ImGui::SetCursorScreenPos(
+        {from.x + pad + wide - button_wide, beside ? from.y + pad : from.y + high - pad - row});
     const std::string name = "gallery.take." + std::to_string(i);
     if (found && button(c.ui, name, "Take", {.width = button_wide, .help = take_help(*found)}))
         c.core.get<GalleryFeature>().take(i);

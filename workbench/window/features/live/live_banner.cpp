@@ -1,13 +1,18 @@
 #include "workbench/window/features/live/live_banner.h"
 
+#include <imgui.h>
+
 #include "geometry/kernel/wording.h"
 #include "workbench/window/case/readable.h"
 #include "workbench/window/style/icons.h"
 #include "workbench/window/widgets/banner.h"
+#include "workbench/window/widgets/controls.h"
 
 namespace vesselbench {
 
 namespace {
+
+constexpr float kNarrow = 26.0F;  ///< a narrower banner has no figures [em]
 
 std::string figures_of(const LiveModel& model) {
     const auto& change = model.state.change;
@@ -39,13 +44,19 @@ std::string live_text(const LiveSmoothing& live) {
 
 }  // namespace
 
+// Its figures would cover a narrow view: the pointer shows them there.
 float draw_live_banner(PanelContext& c, LiveSmoothing& live, const ScreenRect& place) {
-    const bool failed = !live.problem().empty();
+    const bool failed = !live.problem().empty(), narrow = place.width < c.ui.em * kNarrow;
+    const std::string all = live_text(live);
     const Banner banner{failed ? icons::kWarning : icons::kPreview,
-                        failed ? c.ui.theme.warning : c.ui.theme.accent, live_text(live), "", true};
+                        failed ? c.ui.theme.warning : c.ui.theme.accent,
+                        narrow && !failed ? all.substr(0, all.find(". ")) : all, "", true};
     ScreenRect rect = place;
     rect.height = height_of(c.ui, banner, rect.width);
     c.ui.item("banner.live", rect);
+    if (narrow &&
+        ImGui::IsMouseHoveringRect({rect.x, rect.y}, {rect.x + rect.width, rect.y + rect.height}))
+        tooltip(c.ui, all);
     if (draw_banner(c.ui, "live", banner, rect) == BannerAnswer::Close) live.follow(false);
     return rect.height;
 }

@@ -1,6 +1,7 @@
 #include "workbench/window/features/openings/end_markers.h"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,13 +38,12 @@ bool is_active(const PanelContext& c) {
            c.core.view.tool == MeasureTool::None;
 }
 
-/// Above the end, or below it where the view ends.
-std::optional<ViewPixel> marker_place(const Ui& ui, const PixelView& screen, const EndRow& row) {
-    auto at = screen.place(row.place);
-    if (!at) return at;
-    const double above = at->y() - kAbove * ui.em;
-    at->y() = above - kBadge * ui.em < screen.top ? at->y() + kAbove * ui.em : above;
-    return at;
+/// Of all ends, in the order of their rows: those in doubt choose their place first.
+std::vector<std::optional<ViewPixel>> marker_places(const Ui& ui, const PixelView& screen,
+                                                    const std::vector<EndRow>& rows) {
+    std::vector<std::optional<ViewPixel>> ends;
+    for (const EndRow& row : rows) ends.push_back(screen.place(row.place));
+    return marks_apart(screen, ends, kAbove * ui.em, 2.2 * kBadge * ui.em);
 }
 
 bool is_lit(const OpeningsModel& openings, const EndRow& row) {
@@ -70,8 +70,9 @@ void draw_disc(const Ui& ui, const PixelView& screen, const EndRow& row, bool li
                      ui.em * (lit ? 0.2F : 0.12F));
 }
 
-void draw_marker(PanelContext& c, const PixelView& screen, const EndRow& row) {
-    const auto at = marker_place(c.ui, screen, row), end = screen.place(row.place);
+void draw_marker(PanelContext& c, const PixelView& screen, const EndRow& row,
+                 const std::optional<ViewPixel>& at) {
+    const auto end = screen.place(row.place);
     if (!at || !end) return;
     const bool lit = is_lit(c.core.get<OpeningsFeature>().openings(), row);
     ImGui::GetWindowDrawList()->AddLine(corner_of(*at), corner_of(*end),
@@ -141,9 +142,8 @@ bool EndMarkers::update(PanelContext& c, const PixelView& screen, bool over, boo
     hot_.reset();
     if (!over || !is_active(c)) return false;
     const std::vector<EndRow>& rows = c.core.get<OpeningsFeature>().openings().rows();
-    std::vector<std::optional<ViewPixel>> seen;
-    for (const EndRow& row : rows) seen.push_back(marker_place(c.ui, screen, row));
-    const auto nearest = nearest_to(mouse_pixel(), seen, kMarkerReach * c.ui.em);
+    const auto nearest =
+        nearest_to(mouse_pixel(), marker_places(c.ui, screen, rows), kMarkerReach * c.ui.em);
     if (!nearest) return false;
     const EndRow row = rows[*nearest];
     hot_ = row.number;
@@ -157,12 +157,12 @@ bool EndMarkers::update(PanelContext& c, const PixelView& screen, bool over, boo
 
 void EndMarkers::draw(PanelContext& c, const PixelView& screen) const {
     const OpeningsModel& openings = c.core.get<OpeningsFeature>().openings();
-    for (const EndRow& row : openings.rows()) draw_disc(c.ui, screen, row, is_lit(openings, row));
-    // The rows begin with the ends in doubt: their markers, and lit ones, are over the others.
-    for (auto row = openings.rows().rbegin(); row != openings.rows().rend(); ++row)
-        if (!is_lit(openings, *row)) draw_marker(c, screen, *row);
-    for (const EndRow& row : openings.rows())
-        if (is_lit(openings, row)) draw_marker(c, screen, row);
+    const std::vector<EndRow>& rows = openings.rows();
+    for (const EndRow& row : rows) draw_disc(c.ui, screen, row, is_lit(openings, row));
+    const auto places = marker_places(c.ui, screen, rows);
+    for (const bool lit : {false, true})  // over the others
+        for (std::size_t i = 0; i < rows.size(); ++i)
+            if (is_lit(openings, rows[i]) == lit) draw_marker(c, screen, rows[i], places[i]);
     const EndRow* hot = hot_ ? openings.row(*hot_) : nullptr;
     if (hot == nullptr) return;
     ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
@@ -175,7 +175,8 @@ void EndMarkers::draw_card(PanelContext& c, const PixelView& screen) const {
     const EndRow* chosen = openings.selected() ? openings.row(*openings.selected()) : nullptr;
     if (chosen == nullptr || !is_active(c) || c.core.before_drag()) return;
     const EndRow row = *chosen;
-    const auto at = marker_place(c.ui, screen, row);
+    const auto at = marker_places(
+        c.ui, screen, openings.rows())[static_cast<std::size_t>(chosen - openings.rows().data())];
     if (!at) return;
     const float pad = c.ui.grid(1), line = ImGui::GetFrameHeight();
     const ScreenRect card = vesselbench::draw_card(c.ui, rect_of(screen), *at, kCardWidth, 2);

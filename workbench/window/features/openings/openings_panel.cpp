@@ -65,6 +65,10 @@ float height_of_row(const Ui& ui) {
     return ImGui::GetFrameHeight() + ui.em * 1.2F + ui.grid(1);
 }
 
+float width_of_buttons(const Ui& ui) {
+    return kFateWidth * ui.em + ImGui::GetFrameHeight() + ui.grid(1);
+}
+
 void draw_texts(const PanelContext& c, const EndRow& row, ImVec2 from, float width) {
     const Ui& ui = c.ui;
     const bool lit = c.core.get<OpeningsFeature>().openings().selected() == row.number;
@@ -76,15 +80,14 @@ void draw_texts(const PanelContext& c, const EndRow& row, ImVec2 from, float wid
     const std::string size = formatted(row.diameter) + " mm";
     draw.AddText({left, first}, ui.theme.text, size.c_str());
     const std::string share = formatted(100.0 * row.share, "%.0f %%");
-    draw.AddText({left + ui.em * 4.3F, first}, ui.theme.text, share.c_str());
+    const float at = left + ui.em * 4.3F, end = from.x + width - width_of_buttons(ui);
+    const bool fits = at + ImGui::CalcTextSize(share.c_str()).x < end;
+    if (fits) draw.AddText({at, first}, ui.theme.text, share.c_str());
+    const std::string reason = (fits ? "" : share + ", ") + reason_of(row);
     ImGui::PushFont(ui.fonts.small);
     draw.AddText({left, second}, row.doubtful ? ui.theme.warning : ui.theme.muted,
-                 fitted(reason_of(row), width - ui.em * 2.0F - 2 * pad).c_str());
+                 fitted(reason, width - ui.em * 2.0F - 2 * pad).c_str());
     ImGui::PopFont();
-}
-
-float width_of_buttons(const Ui& ui) {
-    return kFateWidth * ui.em + ImGui::GetFrameHeight() + ui.grid(1);
 }
 
 void draw_buttons(PanelContext& c, const EndRow& row, ImVec2 from, float width) {

@@ -162,10 +162,19 @@ void draw_grid(const PanelContext& c, const GraphFrame& axis) {
     }
 }
 
+/// The values at the ends of an axis, but where the mark of the suggestion is: its value is in the
+/// title.
 void draw_ends(const PanelContext& c, const QualityCurve& curve, const GraphFrame& axis) {
-    const double y = axis.bottom() + c.ui.grid(0.25F);
-    label(c, pixel_at(axis.left, y), 0.0F, formatted(axis.from));
-    label(c, pixel_at(axis.right(), y), 1.0F, formatted(axis.to) + unit_of(curve));
+    const double y = axis.bottom() + c.ui.grid(0.25F), mark = axis.x(curve.suggested);
+    const auto end = [&](double x, float alignment, const std::string& words) {
+        const ImFont* font = c.ui.fonts.small;
+        const double wide = font->CalcTextSizeA(font->FontSize, 1e6F, 0, words.c_str()).x;
+        const double from = x - alignment * wide, reach = 0.5 * c.ui.em;
+        if (mark + reach < from || mark - reach > from + wide)
+            label(c, pixel_at(x, y), alignment, words);
+    };
+    end(axis.left, 0.0F, formatted(axis.from));
+    end(axis.right(), 1.0F, formatted(axis.to) + unit_of(curve));
 }
 
 /// With the value of now, and the suggestion, which is seen to follow the target.

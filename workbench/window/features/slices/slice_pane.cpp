@@ -28,6 +28,7 @@ constexpr double kMargin = 0.03;          ///< around a whole slice [-]
 constexpr double kZoomPerNotch = 1.15;    ///< of the wheel
 constexpr double kWindowDrag = 10.0;      ///< a drag by this changes the window by e [em]
 constexpr double kNearSlice = 0.75;       ///< marks so near are shown [slices]
+constexpr float kNarrow = 13.0F;          ///< a narrower slice has no scale bar [em]
 constexpr float kCrossGap = 0.7F;         ///< around the cross, so that what is there is seen [em]
 
 ImVec2 point(const ViewPixel& place) {
@@ -235,10 +236,13 @@ void SlicePane::draw_texts(PanelContext& c, const Ui& ui) const {
     const auto letter = [](const Vec3& side) { return std::string(1, patient_letter(side)); };
     const Vec3 across = right_of(plane_), up = up_of(plane_);
     const Paint colour = ui.theme.text;
+    // The words at the corners have no letters and no bar beside them where there is no room.
+    const bool narrow = rect_.width < ui.em * kNarrow;
+    const float line = narrow ? 1.1F * ui.em : 0.0F;
     shadowed(ui, {rect_.x + pad, rect_.middle_y()}, {0, 0.5F}, colour, letter(-across));
     shadowed(ui, {right - pad, rect_.middle_y()}, {1, 0.5F}, colour, letter(across));
-    shadowed(ui, {rect_.middle_x(), rect_.y + pad / 2}, {0.5F, 0}, colour, letter(up));
-    shadowed(ui, {rect_.middle_x(), low - pad / 2}, {0.5F, 1}, colour, letter(-up));
+    shadowed(ui, {rect_.middle_x(), rect_.y + pad / 2 + line}, {0.5F, 0}, colour, letter(up));
+    if (!narrow) shadowed(ui, {rect_.middle_x(), low - pad / 2}, {0.5F, 1}, colour, letter(-up));
     shadowed(ui, {rect_.x + pad, rect_.y + pad}, {0, 0}, paint_of(plane_), axes_of(plane_).name);
     shadowed(ui, {rect_.x + pad, low - pad}, {0, 1}, colour,
              position_text(axes_of(plane_).normal,
@@ -247,7 +251,7 @@ void SlicePane::draw_texts(PanelContext& c, const Ui& ui) const {
         !problem.empty())
         shadowed(ui, {rect_.middle_x(), rect_.middle_y()}, {0.5F, 0.5F}, colour,
                  fitted("no slice: " + problem, rect_.width - 2 * pad));
-    draw_scale_bar(ui, rect_, camera_);
+    if (!narrow) draw_scale_bar(ui, rect_, camera_);
 }
 
 /// Places of the form that lie in this slice.

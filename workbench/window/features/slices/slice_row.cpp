@@ -19,8 +19,9 @@ namespace vesselbench {
 
 namespace {
 
-constexpr float kField = 4.6F;  ///< width of a number [em]
-constexpr float kWide = 36.0F;  ///< a narrower row has no words before its fields [em]
+constexpr float kField = 4.6F;   ///< width of a number [em]
+constexpr float kWide = 36.0F;   ///< a narrower row has no words before its fields [em]
+constexpr float kLeast = 24.0F;  ///< a narrower one has no fields: the mouse sets them [em]
 
 std::string place_words(const Vec3& point) {
     std::string words;
@@ -67,9 +68,19 @@ std::optional<double> SliceRow::edit(PanelContext& c, const std::string& name, T
     return changed ? typed_number(number.text) : std::nullopt;
 }
 
-void SliceRow::draw_grey(PanelContext& c, bool narrow) {
+void SliceRow::draw_grey(PanelContext& c, float room) {
+    ImageSlices& slices = c.core.get<SlicesFeature>().slices();
+    if (room > c.ui.em * kLeast) draw_grey_fields(c, room);
+    const std::string help = "Window and level from the image's values";
+    if (room < c.ui.em * kWide ? icon_button(c.ui, "slices.auto", icons::kRefresh, help)
+                               : button(c.ui, "slices.auto", "Auto", {.help = help}))
+        slices.reset_grey();
+}
+
+void SliceRow::draw_grey_fields(PanelContext& c, float room) {
     ImageSlices& slices = c.core.get<SlicesFeature>().slices();
     const GreyWindow grey = slices.grey();
+    const bool narrow = room < c.ui.em * kWide;
     label(c, "Window", narrow);
     if (const auto window = edit(c, "slices.window", window_, grey.window))
         slices.set_grey({*window, grey.level});
@@ -81,10 +92,6 @@ void SliceRow::draw_grey(PanelContext& c, bool narrow) {
         slices.set_grey({grey.window, *level});
     help_on_hover(c.ui, "Level: the value in the middle of the window");
     ImGui::SameLine();
-    const std::string help = "Window and level from the image's values";
-    if (narrow ? icon_button(c.ui, "slices.auto", icons::kRefresh, help)
-               : button(c.ui, "slices.auto", "Auto", {.help = help}))
-        slices.reset_grey();
 }
 
 void SliceRow::draw_toggles(PanelContext& c) const {
@@ -124,7 +131,7 @@ void SliceRow::draw_header(PanelContext& c, const ScreenRect& rect) {
         ImGui::AlignTextToFramePadding();
         text(c.ui, "Labels", c.ui.theme.muted);
     } else {
-        draw_grey(c, rect.width < c.ui.em * kWide);
+        draw_grey(c, rect.width);
     }
     draw_toggles(c);
     const float right = rect.x + rect.width - pad - side, before = right - side - pad;

@@ -28,7 +28,8 @@ private:
     [[nodiscard]] std::vector<SlicePane*> panes_below(const PanelContext& c,
                                                       const ViewParts& parts);
     void draw_header(PanelContext& c, const ScreenRect& rect);
-    void draw_grey(PanelContext& c, bool narrow);
+    void draw_grey(PanelContext& c, float room);
+    void draw_grey_fields(PanelContext& c, float room);
     void draw_toggles(PanelContext& c) const;
     void draw_pointed(PanelContext& c, float right) const;
     [[nodiscard]] static std::optional<double> edit(PanelContext& c, const std::string& name,
