@@ -164,69 +164,74 @@ Outcome extrude(const Scene& scene, const Arguments& arguments, Progress& progre
     return outcome;
 }
 
+/// Decided for each opening: shorter where another vessel is in the way.
+Parameter lengths_parameter() {
+    return {.name = "lengths",
+            .type = ParameterType::List,
+            .unit = "mm",
+            .help =
+                "the length at each opening, which may be shorter if another vessel is in "
+                "the way",
+            .use = Use::Decision};
+}
+
 }  // namespace
 
 Operation extrude_opening_operation() {
     using enum ParameterType;
-    return {
-        .name = "extrude-opening",
-        .usual_step = Step::Openings,
-        .allowed = {Step::Openings, Step::Smoothing, Step::Deformation},
-        .summary = "lengthen vessels straight at their openings",
-        .parameters =
-            {{.name = "opening",
-              .type = Text,
-              .help = "names of the openings, separated by commas; default: all",
-              .meaning = Meaning::Openings},
-             {.name = "diameters",
-              .unit = "-",
-              .default_value = 3.0,
-              .help = "length in diameters of the opening",
-              .minimum = 0.0,
-              .maximum = 100.0,
-              .above_minimum = true},
-             {.name = "share",
-              .unit = "-",
-              .default_value = 0.3,
-              .help = "limit of diameters: of the diagonal of the surface's bounding box",
-              .minimum = 0.0,
-              .maximum = 100.0,
-              .above_minimum = true,
-              .use = Use::Rare},
-             {.name = "length",
-              .unit = "mm",
-              .help = "length, whatever the diameters; default: by diameters",
-              .minimum = 0.0,
-              .above_minimum = true},
-             {.name = "direction",
-              .type = Choice,
-              .default_value = "normal",
-              .help = "normal: along the cap's normal; centerline: along the vessel's course "
-                      "just before the cap, which stays parallel to itself",
-              .choices = {"normal", "centerline"}},
-             {.name = "profile",
-              .type = Choice,
-              .default_value = "circle",
-              .help = "circle: the section becomes a circle of the same area; keep: it is kept",
-              .choices = {"circle", "keep"}},
-             {.name = "blend",
-              .unit = "-",
-              .default_value = 0.5,
-              .help = "fraction of the length over which the section becomes a circle",
-              .minimum = 0.0,
-              .maximum = 1.0,
-              .above_minimum = true,
-              .only_with = Condition{"profile", {"circle"}},
-              .use = Use::Rare},
-             {.name = "lengths",
-              .type = List,
-              .unit = "mm",
-              .help = "the length at each opening, which may be shorter if another vessel is in "
-                      "the way",
-              .use = Use::Decision}},
-        .run = &extrude,
-        .thesis = "4.2.8",
-        .example = {.scene = ExampleScene::Openings, .changed = {{"diameters", 1.0}}}};
+    return {.name = "extrude-opening",
+            .usual_step = Step::Openings,
+            .allowed = {Step::Openings, Step::Smoothing, Step::Deformation},
+            .summary = "lengthen vessels straight at their openings",
+            .parameters =
+                {{.name = "opening",
+                  .type = Text,
+                  .help = "names of the openings, separated by commas; default: all",
+                  .meaning = Meaning::Openings},
+                 {.name = "diameters",
+                  .unit = "-",
+                  .default_value = 3.0,
+                  .help = "length in diameters of the opening",
+                  .minimum = 0.0,
+                  .maximum = 100.0,
+                  .above_minimum = true},
+                 {.name = "share",
+                  .unit = "-",
+                  .default_value = 0.3,
+                  .help = "limit of diameters: of the diagonal of the surface's bounding box",
+                  .minimum = 0.0,
+                  .maximum = 100.0,
+                  .above_minimum = true,
+                  .use = Use::Rare},
+                 {.name = "length",
+                  .unit = "mm",
+                  .help = "length, whatever the diameters; default: by diameters",
+                  .minimum = 0.0,
+                  .above_minimum = true},
+                 {.name = "direction",
+                  .type = Choice,
+                  .default_value = "normal",
+                  .help = "normal: along the cap's normal; centerline: along the vessel's course "
+                          "just before the cap, which stays parallel to itself",
+                  .choices = {"normal", "centerline"}},
+                 {.name = "profile",
+                  .type = Choice,
+                  .default_value = "circle",
+                  .help = "circle: the section becomes a circle of the same area; keep: it is kept",
+                  .choices = {"circle", "keep"}},
+                 {.name = "blend",
+                  .unit = "-",
+                  .default_value = 0.5,
+                  .help = "fraction of the length over which the section becomes a circle",
+                  .minimum = 0.0,
+                  .maximum = 1.0,
+                  .above_minimum = true,
+                  .only_with = Condition{"profile", {"circle"}},
+                  .use = Use::Rare},
+                 lengths_parameter()},
+            .run = &extrude,
+            .thesis = "4.2.8",
+            .example = {.scene = ExampleScene::Openings, .changed = {{"diameters", 1.0}}}};
 }
 
 }  // namespace vesselbench

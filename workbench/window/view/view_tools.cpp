@@ -31,9 +31,9 @@ public:
     bool button(const std::string& name, const char* icon, const std::string& help,
                 bool on = false) {
         const float pad = c.ui.grid(0.5F), step = ImGui::GetFrameHeight() + c.ui.grid(0.25F);
-        ImGui::SetCursorScreenPos(
-            {grid_.rect.x + pad + static_cast<float>(drawn_ % grid_.columns) * step,
-             grid_.rect.y + pad + static_cast<float>(drawn_ / grid_.columns) * step});
+        const int row = drawn_ / grid_.columns, column = drawn_ % grid_.columns;
+        ImGui::SetCursorScreenPos({grid_.rect.x + pad + static_cast<float>(column) * step,
+                                   grid_.rect.y + pad + static_cast<float>(row) * step});
         ++drawn_;
         return icon_button(c.ui, name, icon, help, true, on);
     }
