@@ -557,6 +557,9 @@ constexpr CatalogueText kTexts[] = {
     {"record-rewritten",
      "{file}: {reviewer} saw a record with the head {head}, which this one never had: it was "
      "rewritten {where}"},
+    {"record-other-project",
+     "{file}: {reviewer} reviewed {name}, a project with another id: it is another project, or the "
+     "record of this one was begun anew"},
     {"replay-differs", "replaying {name} gives another result than the stored one: {differences}"},
     {"not-accepted", "the review is not complete; missing: {edits}"},
 

@@ -165,7 +165,7 @@ struct ProjectFile::Parts {
     }
 
     /// Stores and records a result inside the caller's transaction.
-    void add_result(const NewResult& result) {
+    void add_result(const NewResult& result, const std::string& by) {
         const BlobId last = store.last();
         Bytes packed;
         std::string digest;
@@ -175,7 +175,7 @@ struct ProjectFile::Parts {
             packed = pack(row);
         }
         insert_result(database, *result.record, packed);
-        enter_result(database, *result.record, digest, last, author);
+        enter_result(database, *result.record, digest, last, by);
     }
 
     [[nodiscard]] NewEntry entry_of(const OutsideEntry& entry) const {
@@ -290,7 +290,8 @@ void ProjectFile::commit(const ProjectChange& change) {
             insert_sources(database, change.edit->edit, change.sources);
         }
         enter_change(database, *change.before, *change.after, change.edit, states, parts_->author);
-        for (const NewResult& result : change.results) parts_->add_result(result);
+        for (const NewResult& result : change.results)
+            parts_->add_result(result, change.author_of(result, parts_->author));
         transaction.commit();
         parts_->check_writable();  // it may have gone meanwhile
     } catch (...) {

@@ -36,6 +36,12 @@ struct ProjectChange {
     const EditRecord* edit = nullptr;  ///< of the new edit revision, if there is one
     std::vector<SourceFile> sources;   ///< of the new edit revision
     std::vector<NewResult> results;    ///< each after the results it runs on
+
+    /// The new edit's result is by its author.
+    [[nodiscard]] const std::string& author_of(const NewResult& result,
+                                               const std::string& others) const {
+        return edit != nullptr && result.record->edit == edit->edit ? edit->author : others;
+    }
 };
 
 /// An entry of the record that stands for something outside the project: an exported file.

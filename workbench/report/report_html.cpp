@@ -237,6 +237,10 @@ Json ends(const Json& report) {
 /// Those of every report, beside the ones that operations declare.
 const std::vector<ReportSection>& usual_sections() {
     static const std::vector<ReportSection> sections = {
+        {.key = "review",
+         .title = "Review",
+         .about = "What reviewers said of the edits, as entered into the project when this report "
+                  "was made."},
         {.key = "distance_to_source",
          .title = "Distance to the source surface",
          .about = "From the wall to the loaded or extracted surface, away from its "
