@@ -27,7 +27,7 @@ Json json_of(std::vector<std::string> arguments) {
 
 /// A project with a sphere that was smoothed.
 std::string new_project(const std::string& folder) {
-    write_surface_file(icosphere(10.0, 2), folder + "/ball.stl");
+    write_surface(icosphere(10.0, 2), folder + "/ball.stl");
     REQUIRE(run({"new", folder + "/p.vbench", folder + "/ball.stl", "--units", "mm"}).exit_code ==
             0);
     REQUIRE(run({"apply", folder + "/p.vbench", "smooth", "--author", "Ada"}).exit_code == 0);
