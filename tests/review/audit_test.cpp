@@ -13,6 +13,7 @@
 #include "tests/support/shapes.h"
 #include "workbench/project/database.h"
 #include "workbench/project/project.h"
+#include "workbench/review/audit_texts.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;

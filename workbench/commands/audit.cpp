@@ -11,6 +11,7 @@
 #include "workbench/commands/commands.h"
 #include "workbench/commands/console.h"
 #include "workbench/operations/table.h"
+#include "workbench/review/audit_texts.h"
 
 namespace vesselbench {
 

@@ -1,13 +1,12 @@
+#include "workbench/review/audit_texts.h"
+
 #include <map>
 #include <utility>
 
-#include <kainjow/mustache.hpp>
-
-#include "geometry/kernel/printable.h"
 #include "geometry/kernel/wording.h"
 #include "workbench/case/diagnostic_json.h"
 #include "workbench/case/diagnostic_words.h"
-#include "workbench/review/audit.h"
+#include "workbench/report/rendered_template.h"
 #include "workbench/review/audit_template.h"
 
 namespace vesselbench {
@@ -15,7 +14,6 @@ namespace vesselbench {
 namespace {
 
 using Json = nlohmann::ordered_json;
-namespace mustache = kainjow::mustache;
 
 std::string text_at(const Json& facts, const char* key) {
     const auto found = facts.find(key);
@@ -68,20 +66,6 @@ std::string words_of(const std::string& kind, const Json& facts) {
                ", whose history it does not know";
     if (kind == "new") return "the project begins";
     return kind == "remove" ? "left out" : "stored";
-}
-
-mustache::data template_data(const Json& json) {
-    if (json.is_string()) return printable(json.get<std::string>());
-    if (json.is_boolean()) return json.get<bool>();
-    if (json.is_primitive()) return json.is_null() ? std::string() : json.dump();
-    mustache::data data(json.is_array() ? mustache::data::type::list
-                                        : mustache::data::type::object);
-    for (const auto& [key, value] : json.items())
-        if (json.is_array())
-            data << template_data(value);
-        else
-            data[key] = template_data(value);
-    return data;
 }
 
 /// Lists of numbers and names as one text, for cells of tables.
@@ -139,8 +123,7 @@ std::string audit_html(const Audit& audit) {
     if (!audit.statement.is_null()) page["statement"] = flat(audit.statement);
     for (Json& entry : page["entries"])
         entry["short_hash"] = entry["hash"].get<std::string>().substr(0, 12);
-    mustache::mustache html(audit_templates().at("audit.html"));
-    return html.render(template_data(page));
+    return rendered_template(audit_templates().at("audit.html"), page);
 }
 
 }  // namespace vesselbench
