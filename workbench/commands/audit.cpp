@@ -34,10 +34,25 @@ std::string names_of(const Json& list) {
     return names.empty() ? "-" : printable(joined(names));
 }
 
+/// "83 x 25 x 78"
+std::string numbers_text(const Json& value) {
+    if (value.is_number_float()) return formatted(value.get<double>(), "%.4g");
+    if (!value.is_array()) return value.dump();
+    std::vector<std::string> numbers;
+    for (const Json& number : value) numbers.push_back(numbers_text(number));
+    return joined(numbers, " x ");
+}
+
 std::string value_text(const Json& source, const char* key, const char* unit) {
-    if (!source.contains(key)) return "";
-    return ", " + (source[key].is_string() ? source[key].get<std::string>() : source[key].dump()) +
-           unit;
+    return source.contains(key) ? ", " + numbers_text(source[key]) + unit : "";
+}
+
+std::string edit_text(const Json& edit) {
+    std::string text = edit["operation"].get<std::string>();
+    const auto arguments = edit["arguments"].get<std::string>(),
+               effect = edit["effect"].get<std::string>();
+    if (!arguments.empty()) text += " " + arguments;
+    return text + (effect.empty() ? "" : "; " + effect);
 }
 
 /// What reports on patients' models state, without the edits, which are entries.
@@ -50,13 +65,10 @@ void print_statement(const Json& statement) {
                                       value_text(source, "spacing_mm", " mm") +
                                       value_text(source, "triangles", " triangles")});
     for (const Json& edit : statement["segmentation"])
-        rows.push_back({"segmentation", edit["operation"].get<std::string>() + " " +
-                                            edit["arguments"].get<std::string>()});
+        rows.push_back({"segmentation", edit_text(edit)});
     for (const Json& edit : statement["edits"])
-        rows.push_back({"edit " + edit["edit"].dump() + "." + edit["revision"].dump(),
-                        edit["operation"].get<std::string>() + " " +
-                            edit["arguments"].get<std::string>() + "; " +
-                            edit["effect"].get<std::string>()});
+        rows.push_back(
+            {"edit " + edit["edit"].dump() + "." + edit["revision"].dump(), edit_text(edit)});
     rows.push_back({"operators", names_of(statement["operators"])});
     for (const Json& reviewer : statement["reviewers"])
         rows.push_back({"reviewer", reviewer["name"].get<std::string>() + " (" +

@@ -68,6 +68,12 @@ std::string words_of(const std::string& kind, const Json& facts) {
     return kind == "remove" ? "left out" : "stored";
 }
 
+std::string value_words(const Json& value) {
+    if (value.is_string()) return value.get<std::string>();
+    if (value.is_null()) return "-";
+    return value.is_number_float() ? formatted(value.get<double>(), "%.4g") : value.dump();
+}
+
 /// Lists of numbers and names as one text, for cells of tables.
 Json flat(Json json) {
     for (auto& [key, value] : json.items()) {
@@ -75,12 +81,13 @@ Json flat(Json json) {
         if (plain || (value.is_object() && key == "verdicts")) {
             std::string text;
             for (const auto& [name, part] : value.items())
-                text += (text.empty() ? "" : ", ") +
-                        (part.is_string() ? part.get<std::string>() : part.dump()) +
+                text += (text.empty() ? "" : ", ") + value_words(part) +
                         (value.is_object() ? " " + name : "");
             value = text;
         } else if (value.is_structured()) {
             value = flat(std::move(value));
+        } else {
+            value = value_words(value);
         }
     }
     return json;
