@@ -540,6 +540,29 @@ constexpr CatalogueText kTexts[] = {
      "with {flow_percent:%.3g} % of the flow"},
     {"vessels-not-compared", "lost vessels could not be looked for: {reason}"},
     {"no-pictures", "the report has no pictures: {reason}"},
+    // The record and its verdicts.
+    {"record-missing",
+     "the project has no record of its edits: it gets one when this program opens it for writing"},
+    {"record-unreadable", "the project cannot be read: {reason}"},
+    {"record-entry-altered", "entry {entry} of the record was altered: its hash is not that of it"},
+    {"record-entry-missing",
+     "the record has no entry {number}: entry {entry} follows where it belongs"},
+    {"record-head-altered",
+     "the record ends with entry {number}, which is not the one entered last: entries were cut off "
+     "or added"},
+    {"record-row-altered", "{row} is not what entry {entry} recorded: it was altered"},
+    {"record-row-missing", "{row} is gone: entry {entry} recorded it"},
+    {"record-row-unknown", "{row} is in no entry of the record: it was added past it"},
+    {"record-data-damaged", "{row} does not have the content of its checksum: {reason}"},
+    {"record-rewritten",
+     "{file}: {reviewer} saw a record with the head {head}, which this one never had: it was "
+     "rewritten {where}"},
+    {"record-other-project",
+     "{file}: {reviewer} reviewed {name}, a project with another id: it is another project, or the "
+     "record of this one was begun anew"},
+    {"replay-differs", "replaying {name} gives another result than the stored one: {differences}"},
+    {"not-accepted", "the review is not complete; missing: {edits}"},
+
     {"earlier-result", "{files} in this folder is of an earlier preparation, not of this model"},
     {"earlier-results", "{files} in this folder are of an earlier preparation, not of this model"},
 };

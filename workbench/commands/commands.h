@@ -231,11 +231,32 @@ struct ExportArguments {
     std::string file;
     std::string variant;                ///< empty: variant_of()
     std::vector<std::string> settings;  ///< "openfoam.parameter=value"
+    std::string required;               ///< "accepted", "accepted=2"; empty: nothing
     bool json = false;
 };
 
 /// Writes the project's model as a file, or as an OpenFOAM case.
 void export_project(const ExportArguments& arguments, const Progress& progress);
+
+struct AuditArguments {
+    std::string project;
+    std::string html;                  ///< file to write; empty: none
+    std::vector<std::string> against;  ///< files of verdicts
+    bool replay = false;
+    bool json = false;
+};
+
+/// Prints a project's record and verifies the project against it. \return false if it contradicts
+bool audit_project(const AuditArguments& arguments, const Progress& progress);
+
+struct ReviewArguments {
+    std::string project;
+    std::vector<std::string> imported;  ///< files of verdicts
+    bool json = false;
+};
+
+/// Enters reviewers' verdicts, and lists how every edit was judged.
+void review_project(const ReviewArguments& arguments);
 
 struct WindowOptions {
     std::string file;        ///< to open at once; empty: the start screen

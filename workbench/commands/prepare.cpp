@@ -1,5 +1,6 @@
 #include "workbench/prepare/prepare.h"
 
+#include <charconv>
 #include <iostream>
 
 #include <nlohmann/json.hpp>
@@ -18,6 +19,8 @@
 #include "workbench/prepare/end_settings.h"
 #include "workbench/prepare/prepared_purposes.h"
 #include "workbench/report/log_json.h"
+#include "workbench/review/review.h"
+#include "workbench/session/export_record.h"
 #include "workbench/session/stored_texts.h"
 
 namespace vesselbench {
@@ -46,6 +49,22 @@ void refuse_source(const Session& session, const std::string& file) {
     if (session.is_source(file))
         throw IoError("'" + std::filesystem::path(file).filename().string() +
                       "' is a source of this project: it is not replaced; give another name");
+}
+
+/// The number of reviewers that "accepted" or "accepted=2" asks for.
+/// \throw UsageError if it is neither
+std::size_t required_reviewers(const std::string& text) {
+    constexpr std::string_view kWord = "accepted";
+    std::size_t count = text == kWord ? 1 : 0;
+    if (text.starts_with(std::string(kWord) + "=")) {
+        const char* end = text.data() + text.size();
+        const auto read = std::from_chars(text.data() + kWord.size() + 1, end, count);
+        if (read.ec != std::errc() || read.ptr != end) count = 0;
+    }
+    if (count == 0)
+        throw UsageError("--require '" + text +
+                         "': give accepted, or accepted=N for N reviewers (at least 1)");
+    return count;
 }
 
 /// \throw UsageError unless the name is UTF-8
@@ -103,6 +122,8 @@ void make_project(const NewArguments& arguments, const Progress& progress) {
 void export_project(const ExportArguments& arguments, const Progress& progress) {
     check_export_name(arguments.file);
     check_export_place(arguments.file);
+    const std::size_t reviewers =
+        arguments.required.empty() ? 0 : required_reviewers(arguments.required);
     Session session = Session::open(arguments.project, {.find = find_operation});
     std::vector<std::string> settings = arguments.settings;
     FlowSettings flow(stored_text(arguments.project, StoredText::Flow));
@@ -114,6 +135,8 @@ void export_project(const ExportArguments& arguments, const Progress& progress) 
     const std::string variant =
         variant_of(arguments.project, arguments.variant, *session.snapshot()->history);
     const Scene scene = session.scene(variant, progress.part(0.0, 0.7));
+    const Review review = review_of(session, variant);
+    if (reviewers > 0) require_accepted(review, reviewers);
     for (const LogEntry& entry : session.log(variant))
         if (entry.status == EditStatus::Stale)
             remark("warning: edit " + std::to_string(entry.edit.edit.id) + " " +
@@ -123,8 +146,9 @@ void export_project(const ExportArguments& arguments, const Progress& progress) 
     export_scene(files, arguments.file, scene, flow.parameters(), progress.part(0.7, 1.0));
     progress.check_cancelled();
     files.commit();
+    record_export(session, arguments.file, variant);
     if (!arguments.json) return void(std::cout << "wrote " << arguments.file << "\n");
-    Json json = {{"file", arguments.file}, {"variant", variant}};
+    Json json = {{"file", arguments.file}, {"variant", variant}, {"review", review_words(review)}};
     if (scene.surface) json["triangles"] = scene.surface->triangle_count();
     if (scene.volume_mesh) json["tetrahedra"] = scene.volume_mesh->tetrahedra.size();
     std::cout << text_from_json(json, 2) << "\n";

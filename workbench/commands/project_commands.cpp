@@ -121,6 +121,35 @@ void add_replay(CommandLine& line) {
     add_json(command, options->json);
 }
 
+void add_audit(CommandLine& line) {
+    const auto options = std::make_shared<AuditArguments>();
+    CLI::App& command = add_command(
+        line, "audit", "Print the record of a project, and verify the project against it",
+        [options, &line] { return audit_project(*options, line.progress) ? 0 : 1; });
+    add_project(command, options->project);
+    command
+        .add_option("--against", options->against,
+                    "Verdicts of reviewers: the record must hold what they saw")
+        ->type_name("VERDICTS.json");
+    command.add_flag("--replay", options->replay,
+                     "Run the edits of the current state again as well");
+    command.add_option("--html", options->html, "Write the record as a page")->type_name("FILE");
+    add_json(command, options->json);
+}
+
+void add_review(CommandLine& line) {
+    const auto options = std::make_shared<ReviewArguments>();
+    CLI::App& command =
+        add_command(line, "review", "List how the edits were judged; enter reviewers' verdicts",
+                    [options] { return review_project(*options), 0; });
+    add_project(command, options->project);
+    command
+        .add_option("--import", options->imported,
+                    "Enter the verdicts that a reviewer has saved, once each")
+        ->type_name("VERDICTS.json");
+    add_json(command, options->json);
+}
+
 void add_compact(CommandLine& line) {
     const auto options = std::make_shared<LogOptions>();
     CLI::App& command =
@@ -150,6 +179,11 @@ void add_export(CommandLine& line) {
     add_variant(command, options->variant, "Variant to write");
     add_settings(command, options->settings,
                  "openfoam.parameter=value: change the flow of the case");
+    command
+        .add_option("--require", options->required,
+                    "accepted, accepted=2: refuse unless so many reviewers have accepted every\n"
+                    "edit of the model")
+        ->type_name("REVIEW");
     add_json(command, options->json);
 }
 
@@ -162,6 +196,8 @@ void add_project_commands(CommandLine& line) {
     add_log(line);
     add_undo_and_redo(line);
     add_replay(line);
+    add_audit(line);
+    add_review(line);
     add_compact(line);
     add_export(line);
 }

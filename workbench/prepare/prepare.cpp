@@ -23,6 +23,7 @@
 #include "workbench/prepare/result_folder.h"
 #include "workbench/prepare/resume.h"
 #include "workbench/prepare/resumed_recipe.h"
+#include "workbench/session/export_record.h"
 #include "workbench/session/stored_texts.h"
 
 namespace vesselbench {
@@ -212,6 +213,15 @@ void write_products(PendingFiles& files, const PrepareOptions& options, Prepared
     }
 }
 
+/// \throw AlgorithmFailure if the project's file cannot be made whole
+void fold_log(const Session& session) {
+    try {
+        session.fold_log();
+    } catch (const IoError& error) {
+        throw AlgorithmFailure(error.what());  // the input is good
+    }
+}
+
 PrepareSummary write_results(Session& session, const PrepareOptions& options, PreparedCase prepared,
                              const Teller& tell, const Progress& progress) {
     const std::vector<std::string> names = result_names(options.purpose);
@@ -227,6 +237,9 @@ PrepareSummary write_results(Session& session, const PrepareOptions& options, Pr
     progress.check_cancelled();
     keep_others(options.out, names, earlier, tell);
     files.commit();
+    for (const std::string& product : prepared.products)
+        record_export(session, options.out / product, options.purpose);
+    fold_log(session);
     tell_remaining(prepared.earlier_results, tell);
     return {prepared.products, report.warnings};
 }
@@ -242,15 +255,6 @@ void write_refusal(const PrepareOptions& options, const DiagnosedFailure& failur
     write_file(options.out / names.front(), text_from_json(printable_json(report), 2) + "\n");
     tell(std::string("the completed edits are kept in ") + kProject +
          "; report.json lists what was found; --resume continues there, also after a manual edit");
-}
-
-/// \throw AlgorithmFailure if the project's file cannot be made whole
-void fold_log(const Session& session) {
-    try {
-        session.fold_log();
-    } catch (const IoError& error) {
-        throw AlgorithmFailure(error.what());  // the input is good
-    }
 }
 
 /// Makes what is missing of the model, and writes the results.

@@ -23,6 +23,7 @@
 #include "workbench/prepare/recipe_run.h"
 #include "workbench/report/log_json.h"
 #include "workbench/report/report_pictures.h"
+#include "workbench/review/review.h"
 #include "workbench/session/source_counterpart.h"
 
 namespace vesselbench {
@@ -207,6 +208,17 @@ void add_steps(PreparedReport& report, const std::vector<LogEntry>& edits, const
     }
 }
 
+/// A model that nobody has reviewed has no such section.
+void add_review(Json& report, const Review& review) {
+    if (review.files == 0) return;
+    report["review"] = {{"state", review_words(review)}};
+    for (const ReviewedEdit& edit : review.edits)
+        for (const GivenVerdict& given : edit.verdicts)
+            report["review"]["edit " + std::to_string(edit.edit.id) + " " + edit.operation]
+                  [given.reviewer] =
+                      to_string(given.verdict) + (given.outdated ? ", outdated" : "");
+}
+
 }  // namespace
 
 PreparedReport prepare_report(Session& session, const PreparedCase& prepared,
@@ -227,6 +239,7 @@ PreparedReport prepare_report(Session& session, const PreparedCase& prepared,
                 {"mask", shown_file(prepared.input, prepared.input.mask.filename().string())}}},
               {"warnings", Json::array()}};
     add_steps(made, edits, prepared.input);
+    add_review(report, review_of(session, prepared.purpose));
     const auto source_edit = last_edit(edits, &RecipePart::makes_source);
     const Scene source = source_edit ? session.scene_after(*source_edit) : Scene{};
     progress.report(0.1, "measuring");

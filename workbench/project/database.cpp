@@ -1,5 +1,6 @@
 #include "workbench/project/database.h"
 
+#include <bit>
 #include <utility>
 
 #include <sqlite3.h>
@@ -144,6 +145,25 @@ double Statement::real(int column) const {
 std::string Statement::text(int column) const {
     const auto bytes = blob(column);
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+std::string Statement::exact(int column) const {
+    switch (sqlite3_column_type(statement_.get(), column)) {
+        case SQLITE_INTEGER:
+            return "i" + std::to_string(integer(column)) + ";";
+        case SQLITE_FLOAT:
+            return "r" + std::to_string(std::bit_cast<std::uint64_t>(real(column))) + ";";
+        case SQLITE_NULL:
+            return "n;";
+        case SQLITE_TEXT:
+            return "t" + std::to_string(blob(column).size()) + ":" + text(column) + ";";
+        default:
+            return "b" + std::to_string(blob(column).size()) + ":" + text(column) + ";";
+    }
+}
+
+int Statement::columns() const {
+    return sqlite3_column_count(statement_.get());
 }
 
 std::span<const std::byte> Statement::blob(int column) const {

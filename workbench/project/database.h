@@ -32,6 +32,9 @@ public:
     [[nodiscard]] std::int64_t integer(int column) const;
     [[nodiscard]] double real(int column) const;
     [[nodiscard]] std::string text(int column) const;
+    /// The value with its type: different for different values, "i12", "t3:abc".
+    [[nodiscard]] std::string exact(int column) const;
+    [[nodiscard]] int columns() const;
     /// Valid until the next step().
     [[nodiscard]] std::span<const std::byte> blob(int column) const;
 

@@ -136,7 +136,7 @@ void PartStore::recall(const ScenePart& part) {
     if (const auto id = find(content_hash(part))) hold(*id, part);
 }
 
-void PartStore::keep_only(std::set<BlobId> parts) {
+std::vector<BlobId> PartStore::keep_only(std::set<BlobId> parts) {
     // A base is older than what differs from it: from the newest on, one pass finds all.
     Statement row = database_->prepare("SELECT id, base FROM blobs ORDER BY id DESC");
     std::vector<BlobId> unused;
@@ -149,6 +149,7 @@ void PartStore::keep_only(std::set<BlobId> parts) {
     for (const BlobId id : unused)
         database_->prepare("DELETE FROM blobs WHERE id = ?").bind(0, id).step();
     forget_after(0);
+    return unused;
 }
 
 BlobId PartStore::last() const {

@@ -45,7 +45,8 @@ public:
     void recall(const ScenePart& part);
 
     /// Removes what none of these parts consists of, inside the caller's transaction.
-    void keep_only(std::set<BlobId> parts);
+    /// \return what was removed
+    std::vector<BlobId> keep_only(std::set<BlobId> parts);
 
     /// After a rollback: forgets what was stored since.
     void forget_after(BlobId last);

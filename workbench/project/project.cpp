@@ -12,14 +12,17 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/pending_files.h"
 #include "geometry/kernel/regular_file.h"
+#include "workbench/project/chain_entries.h"
 #include "workbench/project/compression.h"
 #include "workbench/project/database.h"
 #include "workbench/project/file_lock.h"
 #include "workbench/project/part_store.h"
+#include "workbench/project/record_check.h"
 #include "workbench/project/record_rows.h"
 #include "workbench/project/scene_rows.h"
 #include "workbench/project/schema.h"
 #include "workbench/project/serialization.h"
+#include "workbench/project/verdict_rows.h"
 
 namespace vesselbench {
 
@@ -33,6 +36,14 @@ void require_missing(const std::filesystem::path& path) {
     if (file_exists(path))
         throw IoError(path.filename().string() +
                       " already exists; choose another name or remove it first");
+}
+
+/// \throw IoError, InvalidInput unless it is a file that can be read
+void require_readable(const std::filesystem::path& path) {
+    const std::string name = path.filename().string();
+    if (!file_exists(path)) throw IoError(name + " does not exist");
+    if (!std::filesystem::is_regular_file(path)) throw InvalidInput(name + " is not a file");
+    if (access(path.c_str(), R_OK) != 0) throw IoError("cannot read " + name + ": no permission");
 }
 
 /// Removes what SQLite keeps beside a project. The log of a project that was deleted after a crash
@@ -81,6 +92,7 @@ private:
 struct ProjectFile::Parts {
     std::filesystem::path path;
     std::string read_only_reason;
+    std::string author;
     std::unique_ptr<FileLock> lock;
     Database database;
     PartStore store;
@@ -125,6 +137,14 @@ struct ProjectFile::Parts {
         return parts;
     }
 
+    /// Gives a project of an earlier version its record.
+    void require_record() const {
+        if (!lacks_record(database)) return;
+        Transaction transaction(database);
+        begin_record(database);
+        transaction.commit();
+    }
+
     /// \throw IoError if nothing can be written, or would be lost
     void check_writable() const {
         if (!read_only_reason.empty()) throw IoError(read_only_reason);
@@ -142,6 +162,29 @@ struct ProjectFile::Parts {
         } catch (const InvalidInput& error) {
             throw InvalidInput(database.name() + ": " + error.what());
         }
+    }
+
+    /// Stores and records a result inside the caller's transaction.
+    void add_result(const NewResult& result, const std::string& by) {
+        const BlobId last = store.last();
+        Bytes packed;
+        std::string digest;
+        if (result.scene != nullptr) {
+            const SceneRow row = store_scene(store, *result.scene, result.input);
+            digest = scene_digest(store, row);
+            packed = pack(row);
+        }
+        insert_result(database, *result.record, packed);
+        enter_result(database, *result.record, digest, last, by);
+    }
+
+    [[nodiscard]] NewEntry entry_of(const OutsideEntry& entry) const {
+        return {.kind = entry.kind,
+                .subject = entry.subject,
+                .author = author,
+                .facts = nlohmann::json::parse(entry.facts),
+                .rows = {},
+                .gone = {}};
     }
 
     [[nodiscard]] SceneRow scene_row(ResultId id) const {
@@ -172,11 +215,14 @@ ProjectFile ProjectFile::create(const std::filesystem::path& path, std::size_t e
     return ProjectFile(Parts::open_to_write(path, embed_limit, std::move(attempt.lock)));
 }
 
+ProjectFile ProjectFile::open_to_read(const std::filesystem::path& path,
+                                      const std::string& reason) {
+    require_readable(path);
+    return ProjectFile(Parts::open_to_read(path, kEmbeddedImageBytes, reason));
+}
+
 ProjectFile ProjectFile::open(const std::filesystem::path& path, std::size_t embed_limit) {
-    const std::string name = path.filename().string();
-    if (!file_exists(path)) throw IoError(name + " does not exist");
-    if (!std::filesystem::is_regular_file(path)) throw InvalidInput(name + " is not a file");
-    if (access(path.c_str(), R_OK) != 0) throw IoError("cannot read " + name + ": no permission");
+    require_readable(path);
     FileLock::Attempt attempt;
     if (access(path.c_str(), W_OK) != 0)
         attempt.reason = "it cannot be written";
@@ -184,6 +230,11 @@ ProjectFile ProjectFile::open(const std::filesystem::path& path, std::size_t emb
         attempt = FileLock::acquire(path);
     if (!attempt.lock) return ProjectFile(Parts::open_to_read(path, embed_limit, attempt.reason));
     auto parts = Parts::open_to_write(path, embed_limit, std::move(attempt.lock));
+    try {
+        parts->require_record();
+    } catch (const IoError& error) {  // it can still be read
+        return ProjectFile(Parts::open_to_read(path, embed_limit, error.what()));
+    }
     remove_abandoned(path.has_parent_path() ? path.parent_path() : ".");
     return ProjectFile(std::move(parts));
 }
@@ -233,17 +284,14 @@ void ProjectFile::commit(const ProjectChange& change) {
     const BlobId last = parts_->store.last();
     try {
         Transaction transaction(database);
-        write_states(database, *change.before, *change.after);
+        const auto states = write_states(database, *change.before, *change.after);
         if (change.edit != nullptr) {
             insert_edit(database, *change.edit);
             insert_sources(database, change.edit->edit, change.sources);
         }
-        for (const NewResult& result : change.results) {
-            Bytes row;
-            if (result.scene != nullptr)
-                row = pack(store_scene(parts_->store, *result.scene, result.input));
-            insert_result(database, *result.record, row);
-        }
+        enter_change(database, *change.before, *change.after, change.edit, states, parts_->author);
+        for (const NewResult& result : change.results)
+            parts_->add_result(result, change.author_of(result, parts_->author));
         transaction.commit();
         parts_->check_writable();  // it may have gone meanwhile
     } catch (...) {
@@ -254,9 +302,58 @@ void ProjectFile::commit(const ProjectChange& change) {
 
 void ProjectFile::set_note(EditRef edit, const std::string& note) {
     parts_->check_writable();
-    Transaction transaction(parts_->database);
-    update_note(parts_->database, edit, note);
+    const Database& database = parts_->database;
+    Transaction transaction(database);
+    update_note(database, edit, note);
+    enter_note(database, edit, note, parts_->author);
     transaction.commit();
+}
+
+std::string ProjectFile::id() const {
+    return project_id(parts_->database);
+}
+
+std::string ProjectFile::record_head() const {
+    return chain_head(parts_->database);
+}
+
+bool ProjectFile::has_entry(const std::string& hash) const {
+    return vesselbench::has_entry(parts_->database, hash);
+}
+
+RecordCheck ProjectFile::check_record(const Progress& progress) const {
+    return vesselbench::check_record(parts_->database, progress);
+}
+
+void ProjectFile::set_author(const std::string& author) {
+    parts_->author = author;
+}
+
+void ProjectFile::record(const OutsideEntry& entry) {
+    parts_->check_writable();
+    Transaction transaction(parts_->database);
+    append_entry(parts_->database, parts_->entry_of(entry));
+    transaction.commit();
+}
+
+bool ProjectFile::add_verdicts(const std::string& text, const std::string& hash,
+                               const OutsideEntry& entry) {
+    parts_->check_writable();
+    Transaction transaction(parts_->database);
+    const bool are_new = insert_verdicts(parts_->database, text, hash, parts_->entry_of(entry));
+    transaction.commit();
+    return are_new;
+}
+
+std::vector<std::string> ProjectFile::verdicts() const {
+    return read_verdicts(parts_->database);
+}
+
+std::string ProjectFile::digest(ResultId id) const {
+    Statement query = parts_->database.prepare("SELECT scene FROM results WHERE id = ?");
+    query.bind(0, id);
+    if (!query.step() || query.blob(0).empty()) return "";
+    return scene_digest(parts_->store, unpack_scene_row(query.blob(0)));
 }
 
 Scene ProjectFile::scene(ResultId id, const Progress& progress) const {
@@ -300,14 +397,18 @@ void ProjectFile::drop_scenes(const std::set<ResultId>& kept) {
     {
         Transaction transaction(database);
         std::set<BlobId> used;
+        std::vector<ResultId> dropped;
         for (const auto& [id, result] : before.results()) {
             if (result.dropped || !result.stale_reason.empty()) continue;
             if (kept.contains(id))
                 for (const BlobId blob : parts_->scene_row(id).blobs) used.insert(blob);
             else
-                database.prepare("UPDATE results SET scene = NULL WHERE id = ?").bind(0, id).step();
+                dropped.push_back(id);
         }
-        parts_->store.keep_only(std::move(used));
+        for (const ResultId id : dropped)
+            database.prepare("UPDATE results SET scene = NULL WHERE id = ?").bind(0, id).step();
+        const std::vector<BlobId> gone = parts_->store.keep_only(std::move(used));
+        enter_compaction(database, dropped, gone, parts_->author);
         transaction.commit();
     }
     database.run("VACUUM");

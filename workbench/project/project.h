@@ -36,10 +36,25 @@ struct ProjectChange {
     const EditRecord* edit = nullptr;  ///< of the new edit revision, if there is one
     std::vector<SourceFile> sources;   ///< of the new edit revision
     std::vector<NewResult> results;    ///< each after the results it runs on
+
+    /// The new edit's result is by its author.
+    [[nodiscard]] const std::string& author_of(const NewResult& result,
+                                               const std::string& others) const {
+        return edit != nullptr && result.record->edit == edit->edit ? edit->author : others;
+    }
+};
+
+/// An entry of the record that stands for something outside the project: an exported file.
+struct OutsideEntry {
+    std::string kind;     ///< "export"
+    std::string subject;  ///< the file's name without its folder
+    std::string facts;    ///< a JSON object
 };
 
 /// True if a file is a database, as projects are, whatever its name; false if it cannot be read.
 [[nodiscard]] bool is_project_file(const std::filesystem::path& path);
+
+struct RecordCheck;
 
 /// A project file: SQLite in WAL mode, one transaction per change, one writer. Committed changes
 /// survive the death of the process at any moment.
@@ -55,6 +70,11 @@ public:
     /// \throw IoError if it cannot be read, InvalidInput if it is no project, damaged, or newer
     [[nodiscard]] static ProjectFile open(const std::filesystem::path& path,
                                           std::size_t embed_limit = kEmbeddedImageBytes);
+    /// The same without the lock, beside whoever writes it; it stays as it is.
+    /// \param reason completes "is opened read-only: "
+    /// \throw as open()
+    [[nodiscard]] static ProjectFile open_to_read(const std::filesystem::path& path,
+                                                  const std::string& reason);
     /// A project without a name, in a temporary file.
     [[nodiscard]] static ProjectFile temporary(std::size_t embed_limit = kEmbeddedImageBytes);
 
@@ -70,6 +90,35 @@ public:
 
     /// The file's folder; empty for a temporary project.
     [[nodiscard]] std::filesystem::path folder() const;
+
+    /// A lasting random id, which copies share. Empty if the file is of an earlier version and
+    /// cannot be written.
+    [[nodiscard]] std::string id() const;
+
+    /// The hash of the last entry of the record (chain.h); empty as id().
+    [[nodiscard]] std::string record_head() const;
+
+    /// True if an entry of the record has this hash.
+    [[nodiscard]] bool has_entry(const std::string& hash) const;
+
+    /// Verifies the record and everything stored against it; see record_check.h.
+    [[nodiscard]] RecordCheck check_record(const Progress& progress = {}) const;
+
+    /// Who changes the project from now on where a change names no author of its own: removals,
+    /// moves through the history, notes, exports.
+    void set_author(const std::string& author);
+
+    /// Enters something outside the project into its record. \throw IoError as commit()
+    void record(const OutsideEntry& entry);
+
+    /// Enters a reviewer's verdicts, once. \param text JSON \param hash SHA-256 of what it says
+    /// \return false if these are entered already
+    /// \throw IoError as commit()
+    bool add_verdicts(const std::string& text, const std::string& hash, const OutsideEntry& entry);
+
+    /// The texts of the verdicts in the order they were entered.
+    /// \throw InvalidInput if one is damaged
+    [[nodiscard]] std::vector<std::string> verdicts() const;
 
     [[nodiscard]] History history() const;
 
@@ -92,6 +141,10 @@ public:
     /// \throw InvalidInput if it is damaged, or if a part of it is referenced only and was not
     ///        recalled
     [[nodiscard]] Scene scene(ResultId id, const Progress& progress = {}) const;
+
+    /// SHA-256 of the result's scene, from the stored SHA-256 of its parts. Empty if it has none:
+    /// it is stale, or was dropped. \throw InvalidInput if it is damaged
+    [[nodiscard]] std::string digest(ResultId id) const;
 
     /// True if the result's scene contains an image that is only referenced and not in memory.
     [[nodiscard]] bool needs_recall(ResultId id) const;

@@ -212,10 +212,15 @@ void insert_result(const Database& database, const ResultRecord& result,
         .step();
 }
 
-void write_states(const Database& database, const History& before, const History& after) {
+std::vector<StateId> write_states(const Database& database, const History& before,
+                                  const History& after) {
+    std::vector<StateId> written;
     for (const auto& [id, state] : after.states()) {
         const auto old = before.states().find(id);
-        if (old == before.states().end())
+        const bool is_new = old == before.states().end();
+        if (!is_new && old->second.last_child == state.last_child) continue;
+        written.push_back(id);
+        if (is_new)
             database.prepare("INSERT INTO states VALUES(?, ?, ?, ?, ?, ?)")
                 .bind(0, id)
                 .bind(1, state.parent)
@@ -224,7 +229,7 @@ void write_states(const Database& database, const History& before, const History
                 .bind(4, std::int64_t{state.edit.revision})
                 .bind(5, state.last_child)
                 .step();
-        else if (old->second.last_child != state.last_child)
+        else
             database.prepare("UPDATE states SET last_child = ? WHERE id = ?")
                 .bind(0, state.last_child)
                 .bind(1, id)
@@ -234,6 +239,7 @@ void write_states(const Database& database, const History& before, const History
         database.prepare("UPDATE meta SET value = ? WHERE name = 'current'")
             .bind(0, after.current())
             .step();
+    return written;
 }
 
 namespace {

@@ -22,8 +22,9 @@ void insert_sources(const Database& database, EditRef edit, const std::vector<So
 void insert_result(const Database& database, const ResultRecord& result,
                    std::span<const std::byte> scene);
 
-/// Writes the difference between two histories.
-void write_states(const Database& database, const History& before, const History& after);
+/// Writes the difference between two histories. \return the ids of the states that were written
+std::vector<StateId> write_states(const Database& database, const History& before,
+                                  const History& after);
 
 /// Reads a consistent snapshot of states, edits and results without their data.
 /// \throw InvalidInput if they are inconsistent

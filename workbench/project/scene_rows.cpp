@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include "workbench/project/content_hash.h"
 #include "workbench/project/serialization.h"
 
 namespace vesselbench {
@@ -63,6 +64,16 @@ SceneRow store_scene(PartStore& store, const Scene& scene, const Scene* input) {
         row.blobs.push_back(store.store(taken.parts[i], bases[i]));
     row.manifest = std::move(taken.manifest);
     return row;
+}
+
+std::string scene_digest(const PartStore& store, const SceneRow& row) {
+    ContentHash hash;
+    hash.add(row.manifest);
+    for (const BlobId blob : row.blobs) {
+        const std::string part = store.hash_of(blob);
+        hash.add(std::as_bytes(std::span(part)));
+    }
+    return hash.hex();
 }
 
 std::vector<std::string> differences(const PartStore& store, const SceneRow& row,

@@ -24,6 +24,10 @@ struct SceneRow {
 /// \param input the scene it was made from, as a base for storing differences; null: none
 [[nodiscard]] SceneRow store_scene(PartStore& store, const Scene& scene, const Scene* input);
 
+/// SHA-256 of a stored scene: of its manifest and the SHA-256 of each part. The same scene has the
+/// same digest wherever it is stored.
+[[nodiscard]] std::string scene_digest(const PartStore& store, const SceneRow& row);
+
 /// Names of the parts in which a scene differs from the stored one, bit for bit; empty: none.
 [[nodiscard]] std::vector<std::string> differences(const PartStore& store, const SceneRow& row,
                                                    const Scene& scene);

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include <kainjow/mustache.hpp>
 #include <nlohmann/json.hpp>
 
-#include "geometry/kernel/printable.h"
 #include "geometry/kernel/wording.h"
 #include "workbench/case/argument_texts.h"
 #include "workbench/case/purposes.h"
+#include "workbench/report/rendered_template.h"
 #include "workbench/report/report_template.h"
 
 namespace vesselbench {
@@ -17,7 +16,6 @@ namespace vesselbench {
 namespace {
 
 using Json = nlohmann::ordered_json;
-namespace mustache = kainjow::mustache;
 
 /// Below this, a number is a rounding error of lengths and angles.
 constexpr double kNothing = 1e-9;
@@ -237,6 +235,10 @@ Json ends(const Json& report) {
 /// Those of every report, beside the ones that operations declare.
 const std::vector<ReportSection>& usual_sections() {
     static const std::vector<ReportSection> sections = {
+        {.key = "review",
+         .title = "Review",
+         .about = "What reviewers said of the edits, as entered into the project when this report "
+                  "was made."},
         {.key = "distance_to_source",
          .title = "Distance to the source surface",
          .about = "From the wall to the loaded or extracted surface, away from its "
@@ -283,21 +285,6 @@ std::string title_of(const std::string& name) {
     return found != purposes().end() ? found->title : "Model";
 }
 
-/// For the template, which escapes what HTML has signs for; control characters are none of them.
-mustache::data template_data(const Json& json) {
-    if (json.is_string()) return printable(json.get<std::string>());
-    if (json.is_boolean()) return json.get<bool>();
-    mustache::data data(json.is_array() ? mustache::data::type::list
-                                        : mustache::data::type::object);
-    for (const auto& [key, value] : json.items()) {
-        if (json.is_array())
-            data << template_data(value);
-        else
-            data[key] = template_data(value);
-    }
-    return data;
-}
-
 }  // namespace
 
 std::string report_html(const Json& report, std::span<const ReportPicture> pictures,
@@ -320,8 +307,7 @@ std::string report_html(const Json& report, std::span<const ReportPicture> pictu
                  {"products", texts_of(part_of(report, "products"))}};
     for (const char* list : {"warnings", "pictures", "ends"})
         page[std::string("any_") + list] = !page[list].empty();
-    mustache::mustache html(report_templates().at("report.html"));
-    return html.render(template_data(page));
+    return rendered_template(report_templates().at("report.html"), page);
 }
 
 }  // namespace vesselbench

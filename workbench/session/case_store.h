@@ -43,6 +43,15 @@ public:
     /// \throw IoError if the case is read-only or cannot be written
     void set_note(EditRef edit, const std::string& note);
 
+    // As the project's functions of the same names.
+    void set_author(const std::string& author) { project_.set_author(author); }
+
+    void record(const OutsideEntry& entry) { project_.record(entry); }
+
+    bool add_verdicts(const std::string& text, const std::string& hash, const OutsideEntry& entry) {
+        return project_.add_verdicts(text, hash, entry);
+    }
+
     /// \throw IoError as ProjectFile::fold_log
     void fold_log() const { project_.fold_log(); }
 

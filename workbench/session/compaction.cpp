@@ -4,6 +4,7 @@
 
 #include "geometry/kernel/errors.h"
 #include "workbench/project/project.h"
+#include "workbench/session/login_name.h"
 
 namespace vesselbench {
 
@@ -28,6 +29,7 @@ std::set<ResultId> needed_results(const ProjectFile& project, const History& his
 Compaction compact_project(const std::filesystem::path& file) {
     ProjectFile project = ProjectFile::open(file);
     if (!project.read_only_reason().empty()) throw IoError(project.read_only_reason());
+    project.set_author(login_name());
     const History history = project.history();
     const std::set<ResultId> kept = needed_results(project, history);
     Compaction done{.before = std::filesystem::file_size(file)};

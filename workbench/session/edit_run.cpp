@@ -1,7 +1,5 @@
 #include "workbench/session/edit_run.h"
 
-#include <array>
-#include <ctime>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -29,15 +27,6 @@ void stamp(ResultRecord& record) {
 }
 
 }  // namespace
-
-std::string utc_now() {
-    const std::time_t now = std::time(nullptr);
-    std::tm parts{};
-    gmtime_r(&now, &parts);
-    std::array<char, 32> text{};
-    std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts);
-    return text.data();
-}
 
 EditRun edit_run(const Operation& operation, Scene input, Outcome outcome, double duration,
                  const Progress& progress) {

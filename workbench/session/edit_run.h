@@ -8,6 +8,7 @@
 #include "workbench/case/edit_record.h"
 #include "workbench/case/operation.h"
 #include "workbench/case/scene.h"
+#include "workbench/project/utc_time.h"
 
 namespace vesselbench {
 
@@ -41,8 +42,5 @@ struct EvaluatedLine {
 /// \param operation the edit's
 [[nodiscard]] EditRun stale_run(Scene input, const std::string& operation,
                                 const std::exception& error);
-
-/// The current time, UTC, 2024-05-17T09:30:00Z.
-[[nodiscard]] std::string utc_now();
 
 }  // namespace vesselbench

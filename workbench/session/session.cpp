@@ -3,9 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include <pwd.h>
-#include <unistd.h>
-
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/printable.h"
 #include "workbench/project/content_hash.h"
@@ -14,6 +11,7 @@
 #include "workbench/session/edit_place.h"
 #include "workbench/session/edit_runner.h"
 #include "workbench/session/known_results.h"
+#include "workbench/session/login_name.h"
 #include "workbench/session/moved_places.h"
 
 namespace vesselbench {
@@ -31,11 +29,6 @@ std::optional<std::string> source_hash(const ProjectFile& project, const std::ve
         return std::ranges::count(sources, hash, &SourceFile::hash) > 0;
     });
     return is_source ? std::optional(hash) : std::nullopt;
-}
-
-std::string login_name() {
-    const passwd* user = getpwuid(geteuid());
-    return user != nullptr ? user->pw_name : "unknown";
 }
 
 bool refers_to_image(const Scene& scene, std::size_t embed_limit) {
@@ -71,7 +64,8 @@ struct Session::Parts {
         : options(std::move(o)),
           store(std::move(project), options.find, options.scene_bytes),
           runner(store, options) {
-        if (options.author.empty()) options.author = printable(login_name());
+        if (options.author.empty()) options.author = login_name();
+        store.set_author(options.author);
     }
 
     void describe(EditRecord& edit, const EditOptions& how) const {
@@ -220,7 +214,8 @@ Session Session::create(const std::filesystem::path& project, SessionOptions opt
 
 Session Session::open(const std::filesystem::path& project, SessionOptions options) {
     require_utf8(options.author, "the author");
-    auto file = ProjectFile::open(project, options.embed_limit);
+    auto file = options.only_reads ? ProjectFile::open_to_read(project, "it is only looked at")
+                                   : ProjectFile::open(project, options.embed_limit);
     return Session(std::make_unique<Parts>(std::move(options), std::move(file)));
 }
 
@@ -344,6 +339,21 @@ void Session::set_note(EditRef edit, const std::string& note) {
                          std::to_string(edit.id) + "; see the edits with log");
     require_utf8(note, "the note");
     parts_->store.set_note(edit, note);
+}
+
+const ProjectFile& Session::project() const {
+    return parts_->store.project();
+}
+
+void Session::record(const OutsideEntry& entry) {
+    parts_->store.check_writable();
+    parts_->store.record(entry);
+}
+
+bool Session::add_verdicts(const std::string& text, const std::string& hash,
+                           const OutsideEntry& entry) {
+    parts_->store.check_writable();
+    return parts_->store.add_verdicts(text, hash, entry);
 }
 
 bool Session::is_source(const std::filesystem::path& file) const {

@@ -128,6 +128,14 @@ public:
     /// cannot be written
     void set_note(EditRef edit, const std::string& note);
 
+    /// The project as it is stored: its id, the head of its record, verdicts, digests of results.
+    [[nodiscard]] const ProjectFile& project() const;
+
+    /// As ProjectFile::record() and add_verdicts(), by the session's author.
+    /// \throw IoError if the session only reads or the project cannot be written
+    void record(const OutsideEntry& entry);
+    bool add_verdicts(const std::string& text, const std::string& hash, const OutsideEntry& entry);
+
     /// True for a file with the content of a file that an edit has read: it must not be replaced.
     /// \throw IoError if it cannot be read
     [[nodiscard]] bool is_source(const std::filesystem::path& file) const;

@@ -14,6 +14,7 @@ struct SessionOptions {
     OperationLookup find;                           ///< required: finds operations by name
     WorkerOptions worker;                           ///< how operations run in worker processes
     std::size_t embed_limit = kEmbeddedImageBytes;  ///< [bytes] see there
+    bool only_reads = false;  ///< opens a project beside whoever writes it, and leaves it as it is
     std::size_t scene_bytes = std::size_t{768}
                               << 20;  ///< scenes held in memory; others are re-read
 };

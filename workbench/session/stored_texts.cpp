@@ -1,7 +1,10 @@
 #include "workbench/session/stored_texts.h"
 
 #include "geometry/kernel/errors.h"
+#include "workbench/project/chain.h"
 #include "workbench/project/database.h"
+#include "workbench/project/schema.h"
+#include "workbench/session/login_name.h"
 
 namespace vesselbench {
 
@@ -48,10 +51,16 @@ bool has_no_log(std::filesystem::path project) {
 
 void store_text(const std::filesystem::path& project, StoredText which, const std::string& text) {
     const Database database(project, OpenMode::Write);
-    database.prepare("INSERT OR REPLACE INTO meta VALUES(?, ?)")
-        .bind(0, key_of(which))
-        .bind(1, text)
-        .step();
+    if (text_in(database, which) == text) return;
+    const std::string key = key_of(which);
+    Transaction transaction(database);
+    if (lacks_record(database)) begin_record(database);
+    database.prepare("INSERT OR REPLACE INTO meta VALUES(?, ?)").bind(0, key).bind(1, text).step();
+    NewEntry entry{
+        .kind = key, .subject = "project", .author = login_name(), .rows = {}, .gone = {}};
+    add_row_digests(database, "meta", "name = '" + key + "'", entry.rows);
+    append_entry(database, entry);
+    transaction.commit();
 }
 
 std::string stored_text(const std::filesystem::path& project, StoredText which) {

@@ -20,6 +20,7 @@
 #include "workbench/export/export_formats.h"
 #include "workbench/export/products.h"
 #include "workbench/prepare/prepared_purposes.h"
+#include "workbench/session/export_record.h"
 #include "workbench/session/stored_texts.h"
 #include "workbench/window/case/rail.h"
 #include "workbench/window/case/readable.h"
@@ -432,6 +433,7 @@ void Document::export_to(const std::filesystem::path& file) {
                      progress.part(0.7, 1.0));
         progress.check_cancelled();
         files.commit();
+        record_export(session, file, variant);
         return Nothing{};
     };
     const std::string done = "Exported " + file.string() + unit;

@@ -1,0 +1,173 @@
+#include "workbench/review/review.h"
+
+#include <catch2/catch.hpp>
+
+#include "geometry/kernel/diagnosed_error.h"
+#include "geometry/kernel/errors.h"
+#include "tests/review/reviewed_session.h"
+#include "tests/session/sphere_session.h"
+#include "workbench/project/project.h"
+#include "workbench/project/record_check.h"
+
+using namespace vesselbench;
+using namespace vesselbench::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+std::vector<ReviewStatus> statuses(const Session& session) {
+    std::vector<ReviewStatus> found;
+    for (const ReviewedEdit& edit : review_of(session).edits) found.push_back(edit.status);
+    return found;
+}
+
+ImportedVerdicts enter(Session& session, const std::string& project, const VerdictFile& verdicts) {
+    return import_verdicts(session, save_verdicts(project, verdicts));
+}
+
+std::string error_of(Session& session, const std::string& project, const VerdictFile& verdicts) {
+    try {
+        enter(session, project, verdicts);
+    } catch (const InvalidInput& error) {
+        return error.what();
+    }
+    return "entered";
+}
+
+const std::vector<ReviewStatus> kAllOpen(3, ReviewStatus::Open);
+const std::vector<ReviewStatus> kAllAccepted(3, ReviewStatus::Accepted);
+
+}  // namespace
+
+SCENARIO("Verdicts are entered once and judge the edits", "[review]") {
+    const std::string project = reviewed_project();
+    Session session = Session::open(project, options());
+    CHECK(statuses(session) == kAllOpen);
+    CHECK(review_words(review_of(session)) == "not reviewed");
+    const VerdictFile kern = verdicts_on(session, "A. Kern", Verdict::Accept);
+    CHECK_FALSE(enter(session, project, kern).known);
+    CHECK(statuses(session) == kAllAccepted);
+    CHECK(review_words(review_of(session)) == "accepted by A. Kern");
+    THEN("a second time they are known") {
+        const std::string head = session.project().record_head();
+        CHECK(enter(session, project, kern).known);
+        CHECK(session.project().record_head() == head);
+    }
+    THEN("they are in the record") {
+        const RecordCheck check = session.project().check_record();
+        CHECK(check.findings.empty());
+        CHECK(check.entries.back().kind == "verdicts");
+        CHECK(check.entries.back().subject == "A. Kern");
+    }
+    WHEN("another reviewer disagrees") {
+        VerdictFile roth = verdicts_on(session, "B. Roth", Verdict::Reject);
+        roth.overall = Verdict::None;
+        roth.edits.resize(2);
+        roth.edits[1].verdict = Verdict::Unsure;
+        enter(session, project, roth);
+        THEN("what both decided is disputed") {
+            CHECK(statuses(session) == std::vector{ReviewStatus::Disputed, ReviewStatus::Accepted,
+                                                   ReviewStatus::Accepted});
+        }
+        THEN("a newer verdict of the same reviewer replaces it, an older one does not") {
+            VerdictFile later =
+                verdicts_on(session, "B. Roth", Verdict::Accept, "2030-01-02T00:00:00Z");
+            enter(session, project, later);
+            CHECK(statuses(session) == kAllAccepted);
+            enter(session, project,
+                  verdicts_on(session, "B. Roth", Verdict::Reject, "2029-01-01T00:00:00Z"));
+            CHECK(statuses(session) == kAllAccepted);
+        }
+    }
+    WHEN("an edit is changed afterwards") {
+        session.change_edit(2, {{"at", kTop}, {"reach", 4.0}, {"height", 0.75}});
+        THEN("the verdicts on it and on what follows are outdated") {
+            CHECK(statuses(session) == std::vector{ReviewStatus::Accepted, ReviewStatus::Outdated,
+                                                   ReviewStatus::Outdated});
+            CHECK(review_of(session).overall.at(0).outdated);
+            CHECK(status_of(review_of(session)) == ReviewStatus::Outdated);
+        }
+        THEN("they hold again once the change is undone") {
+            session.undo();
+            CHECK(statuses(session) == kAllAccepted);
+        }
+        THEN("verdicts that come later on what was, are said to be outdated") {
+            CHECK(enter(session, project,
+                        [&] {
+                            VerdictFile roth = kern;
+                            roth.reviewer = "B. Roth";
+                            return roth;
+                        }())
+                      .outdated == 2);
+        }
+    }
+    WHEN("an edit is computed again with the same result, its verdict holds") {
+        session.undo();
+        session.undo();
+        session.redo();
+        session.redo();
+        CHECK(statuses(session) == kAllAccepted);
+    }
+}
+
+SCENARIO("Verdicts of another project, copy or record are refused", "[review]") {
+    const std::string project = reviewed_project();
+    Session session = Session::open(project, options());
+    const VerdictFile good = verdicts_on(session, "A. Kern", Verdict::Accept);
+    VerdictFile other = good;
+    other.project = "0";
+    CHECK_THAT(error_of(session, project, other),
+               Contains(".project.id") && Contains("another project"));
+    other = good;
+    other.edits[1].edit.revision = 3;
+    CHECK_THAT(error_of(session, project, other), Contains(".edits[1].edit"));
+    other = good;
+    other.chain_head = std::string(64, 'a');
+    CHECK_THAT(error_of(session, project, other), Contains(".chain_head"));
+    CHECK(statuses(session) == kAllOpen);
+}
+
+SCENARIO("The gate names what is missing", "[review]") {
+    const std::string project = reviewed_project();
+    Session session = Session::open(project, options());
+    const auto refusal = [&](std::size_t reviewers) -> std::string {
+        try {
+            require_accepted(review_of(session, "cfd"), reviewers);
+        } catch (const DiagnosedFailure& failure) {
+            CHECK(failure.diagnostics().front().code == "not-accepted");
+            return failure.what();
+        }
+        return "";
+    };
+    CHECK_THAT(refusal(1), Contains("1 make-sphere (open)") && Contains("3 bump (open)"));
+    enter(session, project, verdicts_on(session, "A. Kern", Verdict::Accept));
+    CHECK(refusal(1).empty());
+    CHECK_THAT(refusal(2), Contains("2 bump (accepted by 1 of 2)"));
+    enter(session, project, verdicts_on(session, "B. Roth", Verdict::Accept));
+    CHECK(refusal(2).empty());
+    VerdictFile veto = verdicts_on(session, "C. Lang", Verdict::Reject);
+    veto.edits.clear();
+    for (const ReviewedEdit& edit : review_of(session).edits)
+        veto.edits.push_back({.edit = edit.edit, .hash = edit.hash, .time = veto.written});
+    enter(session, project, veto);
+    CHECK_THAT(refusal(1), Contains("the whole model (rejected by C. Lang)"));
+}
+
+SCENARIO("An edit's hash follows what it is", "[review]") {
+    const std::string project = reviewed_project();
+    Session session = Session::open(project, options());
+    const auto hash = [&](std::size_t at) {
+        return edit_hash(session.project(), session.log().at(at));
+    };
+    const std::string first = hash(0), second = hash(1), third = hash(2);
+    CHECK(first.size() == 64);
+    CHECK(second != third);
+    session.set_note({2, 1}, "a note changes no model");
+    CHECK(hash(1) == second);
+    session.remove_edit(2);
+    CHECK(session.log().at(1).status == EditStatus::Pending);
+    CHECK(hash(0) == first);
+    CHECK(hash(1) != third);
+    session.undo();
+    CHECK(hash(2) == third);
+}

@@ -1,0 +1,152 @@
+#include <filesystem>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "geometry/formats/surface_file.h"
+#include "geometry/kernel/whole_file.h"
+#include "tests/support/paths.h"
+#include "tests/support/program.h"
+#include "tests/support/shapes.h"
+
+using namespace vesselbench;
+using namespace vesselbench::test;
+using Catch::Matchers::Contains;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+ProgramRun run(const std::vector<std::string>& arguments) {
+    return run_program(program_path(), arguments);
+}
+
+Json json_of(std::vector<std::string> arguments) {
+    arguments.emplace_back("--json");
+    return Json::parse(run(arguments).out);
+}
+
+/// A project with a sphere that was smoothed.
+std::string new_project(const std::string& folder) {
+    write_surface(icosphere(10.0, 2), folder + "/ball.stl");
+    REQUIRE(run({"new", folder + "/p.vbench", folder + "/ball.stl", "--units", "mm"}).exit_code ==
+            0);
+    REQUIRE(run({"apply", folder + "/p.vbench", "smooth", "--author", "Ada"}).exit_code == 0);
+    return folder + "/p.vbench";
+}
+
+/// What a reviewer saves who judges every edit alike.
+std::string verdicts(const std::string& project, const std::string& reviewer,
+                     const std::string& verdict, const std::string& to) {
+    const Json review = json_of({"review", project});
+    Json edits = Json::array();
+    for (const Json& edit : review["edits"])
+        edits.push_back({{"edit", edit["edit"]},
+                         {"revision", edit["revision"]},
+                         {"hash", edit["hash"]},
+                         {"verdict", verdict},
+                         {"comment", "because"},
+                         {"time", "2030-01-01T00:00:00Z"},
+                         {"pins", Json::array()},
+                         {"distances", Json::array()}});
+    const Json file = {{"format", "vesselbench-verdicts"},
+                       {"version", 1},
+                       {"program", "test"},
+                       {"project", {{"id", review["id"]}, {"name", "p"}}},
+                       {"chain_head", review["head"]},
+                       {"reviewer", {{"name", reviewer}, {"role", "radiologist"}}},
+                       {"written", "2030-01-01T00:00:00Z"},
+                       {"overall", {{"verdict", "none"}, {"comment", ""}}},
+                       {"edits", edits}};
+    write_file(to, file.dump());
+    return to;
+}
+
+}  // namespace
+
+SCENARIO("An export can require that reviewers have accepted the model",
+         "[workbench][command-line][review]") {
+    const std::string folder = temporary_folder(), project = new_project(folder);
+    const std::vector<std::string> gated = {"export", project, folder + "/out.stl", "--require",
+                                            "accepted"};
+    ProgramRun refused = run(gated);
+    CHECK(refused.exit_code == 1);
+    CHECK_THAT(refused.err, Contains("1 load-surface (open)") && Contains("2 smooth (open)"));
+    CHECK_FALSE(std::filesystem::exists(folder + "/out.stl"));
+    CHECK(json_of(gated)["diagnostics"][0]["code"] == "not-accepted");
+    const std::string kern = verdicts(project, "A. Kern", "accept", folder + "/kern.json");
+    ProgramRun entered = run({"review", project, "--import", kern});
+    CHECK(entered.exit_code == 0);
+    CHECK_THAT(entered.out, Contains("accepted by A. Kern"));
+    CHECK_THAT(run({"review", project, "--import", kern}).err, Contains("entered already"));
+    THEN("it is written then, and the record says so") {
+        CHECK(run(gated).exit_code == 0);
+        CHECK(std::filesystem::exists(folder + "/out.stl"));
+        const Json audit = json_of({"audit", project, "--against", kern});
+        CHECK(audit["verified"] == true);
+        CHECK(audit["entries"].back()["kind"] == "export");
+        CHECK(audit["entries"].back()["subject"] == "out.stl");
+        CHECK(audit["statement"]["review"] == "accepted by A. Kern");
+        CHECK(audit["statement"]["reviewers"][0]["name"] == "A. Kern");
+        CHECK(audit["statement"]["sources"][0]["file"] == "ball.stl");
+        CHECK_THAT(audit.dump(), !Contains(folder));
+    }
+    THEN("two reviewers may be asked for") {
+        const ProgramRun two =
+            run({"export", project, folder + "/out.stl", "--require", "accepted=2"});
+        CHECK(two.exit_code == 1);
+        CHECK_THAT(two.err, Contains("2 smooth (accepted by 1 of 2)"));
+    }
+    THEN("two reviewers who disagree leave it disputed") {
+        const std::string roth = verdicts(project, "B. Roth", "reject", folder + "/roth.json");
+        CHECK(run({"review", project, "--import", roth}).exit_code == 0);
+        CHECK(json_of({"review", project})["status"] == "disputed");
+        refused = run(gated);
+        CHECK(refused.exit_code == 1);
+        CHECK_THAT(refused.err, Contains("2 smooth (disputed)"));
+    }
+    THEN("a change of an edit makes its verdict outdated") {
+        REQUIRE(run({"change", project, "2", "iterations=3"}).exit_code == 0);
+        CHECK(json_of({"review", project})["edits"][1]["status"] == "outdated");
+        CHECK(run(gated).exit_code == 1);
+    }
+    THEN("wrong words are wrong usage") {
+        for (const char* word : {"accept", "accepted=", "accepted=0", "accepted=x", "accepted=2x"})
+            CHECK(run({"export", project, folder + "/out.stl", "--require", word}).exit_code == 2);
+    }
+}
+
+SCENARIO("Verdicts that are none are bad input", "[workbench][command-line][review]") {
+    const std::string folder = temporary_folder(), project = new_project(folder);
+    write_file(folder + "/v.json", R"({"format": "vesselbench-verdicts", "version": 9})");
+    for (const std::string& file : {folder + "/v.json", folder + "/none.json"}) {
+        CHECK(run({"review", project, "--import", file}).exit_code == 3);
+        CHECK(run({"audit", project, "--against", file}).exit_code == 3);
+    }
+    const std::string other = temporary_folder();
+    const std::string foreign =
+        verdicts(new_project(other), "A. Kern", "accept", folder + "/foreign.json");
+    const ProgramRun refused = run({"review", project, "--import", foreign});
+    CHECK(refused.exit_code == 3);
+    CHECK_THAT(refused.err, Contains("foreign.json.project.id is another project's"));
+}
+
+SCENARIO("An audit fails if the project is not what its record says",
+         "[workbench][command-line][review]") {
+    const std::string folder = temporary_folder(), project = new_project(folder);
+    const ProgramRun good = run({"audit", project, "--replay", "--html", folder + "/record.html"});
+    CHECK(good.exit_code == 0);
+    CHECK_THAT(good.out, Contains("smooth (smoothing, cfd)") && Contains("Ada") &&
+                             Contains("cannot be verified"));
+    CHECK_THAT(file_content(folder + "/record.html"), Contains("Verified.") && Contains("smooth"));
+    std::string bytes = file_content(project);
+    const std::size_t author = bytes.find("Ada");
+    REQUIRE(author != std::string::npos);
+    while (bytes.find("Ada") != std::string::npos) bytes.replace(bytes.find("Ada"), 3, "Eve");
+    std::filesystem::remove(project);
+    write_file(project, bytes);
+    const ProgramRun bad = run({"audit", project});
+    CHECK(bad.exit_code == 1);
+    CHECK_THAT(bad.err, Contains("not what its record says"));
+    CHECK_THAT(bad.out, Contains("edit 2.1 is not what entry"));
+    CHECK(run({"audit", folder + "/none.vbench"}).exit_code == 3);
+}

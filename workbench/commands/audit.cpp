@@ -1,0 +1,125 @@
+#include "workbench/review/audit.h"
+
+#include <filesystem>
+#include <iostream>
+
+#include "geometry/kernel/pending_files.h"
+#include "geometry/kernel/printable.h"
+#include "geometry/kernel/wording.h"
+#include "workbench/case/diagnostic_words.h"
+#include "workbench/case/json_text.h"
+#include "workbench/commands/commands.h"
+#include "workbench/commands/console.h"
+#include "workbench/operations/table.h"
+#include "workbench/review/audit_texts.h"
+
+namespace vesselbench {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+void print_entries(const RecordCheck& record) {
+    std::vector<std::vector<std::string>> rows = {
+        {"entry", "time", "kind", "subject", "by", "what"}};
+    for (const ChainEntry& entry : record.entries)
+        rows.push_back({std::to_string(entry.number), entry.time, entry.kind,
+                        shortened(printable(entry.subject), 40), entry.author, entry_words(entry)});
+    std::cout << as_columns(rows);
+}
+
+std::string names_of(const Json& list) {
+    std::vector<std::string> names;
+    for (const Json& name : list) names.push_back(name.get<std::string>());
+    return names.empty() ? "-" : printable(joined(names));
+}
+
+/// "83 x 25 x 78"
+std::string numbers_text(const Json& value) {
+    if (value.is_number_float()) return formatted(value.get<double>(), "%.4g");
+    if (!value.is_array()) return value.dump();
+    std::vector<std::string> numbers;
+    for (const Json& number : value) numbers.push_back(numbers_text(number));
+    return joined(numbers, " x ");
+}
+
+std::string value_text(const Json& source, const char* key, const char* unit) {
+    return source.contains(key) ? ", " + numbers_text(source[key]) + unit : "";
+}
+
+std::string edit_text(const Json& edit) {
+    std::string text = edit["operation"].get<std::string>();
+    const auto arguments = edit["arguments"].get<std::string>(),
+               effect = edit["effect"].get<std::string>();
+    if (!arguments.empty()) text += " " + arguments;
+    return text + (effect.empty() ? "" : "; " + effect);
+}
+
+/// What reports on patients' models state, without the edits, which are entries.
+void print_statement(const Json& statement) {
+    if (statement.is_null()) return;
+    std::vector<std::vector<std::string>> rows;
+    for (const Json& source : statement["sources"])
+        rows.push_back({"source", source["file"].get<std::string>() +
+                                      value_text(source, "size_voxels", " voxels") +
+                                      value_text(source, "spacing_mm", " mm") +
+                                      value_text(source, "triangles", " triangles")});
+    for (const Json& edit : statement["segmentation"])
+        rows.push_back({"segmentation", edit_text(edit)});
+    for (const Json& edit : statement["edits"])
+        rows.push_back(
+            {"edit " + edit["edit"].dump() + "." + edit["revision"].dump(), edit_text(edit)});
+    rows.push_back({"operators", names_of(statement["operators"])});
+    for (const Json& reviewer : statement["reviewers"])
+        rows.push_back({"reviewer", reviewer["name"].get<std::string>() + " (" +
+                                        reviewer["role"].get<std::string>() + ")"});
+    rows.push_back({"review", statement["review"].get<std::string>()});
+    rows.push_back({"program", "vesselbench " + names_of(statement["program_versions"])});
+    std::cout << as_columns(rows) << "\n";
+}
+
+void print_list(const std::string& title, const std::vector<std::string>& texts) {
+    if (texts.empty()) return;
+    std::cout << title << "\n";
+    for (const std::string& text : texts) std::cout << as_columns({{"  -", text}});
+}
+
+void print_audit(const Audit& audit) {
+    std::cout << "record of " << printable(audit.project) << ", project "
+              << printable(audit.record.project) << "\n\n";
+    print_statement(audit.statement);
+    print_entries(audit.record);
+    if (!audit.record.entries.empty())
+        std::cout << "head " << printable(audit.record.entries.back().hash) << "\n";
+    std::cout << "\n";
+    print_list("verified:", audit.verified);
+    print_list("cannot be verified:", audit.unverified);
+    print_list("NOT AS RECORDED:", worded(audit.findings));
+}
+
+}  // namespace
+
+bool audit_project(const AuditArguments& arguments, const Progress& progress) {
+    const Audit made = audit({.project = arguments.project,
+                              .against = {arguments.against.begin(), arguments.against.end()},
+                              .replay = arguments.replay,
+                              .find = find_operation},
+                             progress);
+    if (!arguments.html.empty()) {
+        PendingFiles files;
+        files.add_mark(arguments.html, audit_html(made));
+        files.commit();
+    }
+    if (arguments.json)
+        std::cout << text_from_json(audit_json(made), 2) << "\n";
+    else
+        print_audit(made);
+    if (made.findings.empty()) return true;
+    complain("the project is not what its record says: " + worded(made.findings.front()) +
+             (made.findings.size() > 1
+                  ? " (and " + counted(made.findings.size() - 1, "more finding") + ")"
+                  : ""));
+    return false;
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,81 @@
+#include "workbench/review/review.h"
+
+#include <iostream>
+
+#include <nlohmann/json.hpp>
+
+#include "geometry/kernel/bare_name.h"
+#include "geometry/kernel/printable.h"
+#include "geometry/kernel/wording.h"
+#include "workbench/case/json_text.h"
+#include "workbench/commands/commands.h"
+#include "workbench/commands/console.h"
+#include "workbench/operations/table.h"
+#include "workbench/project/project.h"
+#include "workbench/review/statement.h"
+
+namespace vesselbench {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string verdict_words(const GivenVerdict& given) {
+    std::string text = given.reviewer + ": " + to_string(given.verdict);
+    if (given.outdated) text += " (outdated)";
+    return text + (given.comment.empty() ? "" : ", \"" + given.comment + "\"");
+}
+
+std::string verdict_list(const std::vector<GivenVerdict>& verdicts) {
+    std::vector<std::string> texts;
+    for (const GivenVerdict& given : verdicts) texts.push_back(verdict_words(given));
+    return joined(texts, "; ");
+}
+
+void print_review(const Review& review) {
+    std::vector<std::vector<std::string>> rows = {{"edit", "step", "operation", "review", "by"}};
+    for (const ReviewedEdit& edit : review.edits)
+        rows.push_back({std::to_string(edit.edit.id) + "." + std::to_string(edit.edit.revision),
+                        to_string(edit.place.step) +
+                            (edit.place.variant.empty() ? "" : " (" + edit.place.variant + ")"),
+                        edit.operation, to_string(edit.status), verdict_list(edit.verdicts)});
+    std::cout << as_columns(rows);
+    if (!review.overall.empty())
+        std::cout << printable("the whole: " + verdict_list(review.overall)) << "\n";
+    std::cout << review_words(review) << "\n";
+}
+
+std::string import_words(const std::string& file, const ImportedVerdicts& done) {
+    const std::string by = printable(done.verdicts.reviewer);
+    if (done.known) return bare_name(file) + ": these verdicts of " + by + " are entered already";
+    return bare_name(file) + ": " + counted(done.verdicts.edits.size(), "verdict") + " of " + by +
+           (done.outdated > 0
+                ? ", " + std::to_string(done.outdated) + " of them on what has changed since"
+                : "");
+}
+
+}  // namespace
+
+void review_project(const ReviewArguments& arguments) {
+    Session session = Session::open(arguments.project, {.find = find_operation});
+    Json imported = Json::array();
+    for (const std::string& file : arguments.imported) {
+        const ImportedVerdicts done = import_verdicts(session, file);
+        remark(import_words(file, done));
+        imported.push_back({{"file", bare_name(file)},
+                            {"reviewer", done.verdicts.reviewer},
+                            {"verdicts", done.verdicts.edits.size()},
+                            {"outdated", done.outdated},
+                            {"known", done.known}});
+    }
+    const Review review = review_of(session);
+    if (!arguments.json) return print_review(review);
+    Json json = {{"project", session.project().name()},
+                 {"id", session.project().id()},
+                 {"head", session.project().record_head()},
+                 {"imported", imported}};
+    json.update(review_json(review));
+    std::cout << text_from_json(json, 2) << "\n";
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,161 @@
+#include "workbench/review/audit.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "geometry/kernel/bare_name.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/printable.h"
+#include "geometry/kernel/wording.h"
+#include "workbench/project/project.h"
+#include "workbench/review/statement.h"
+
+namespace vesselbench {
+
+namespace {
+
+Diagnostic finding(std::string code, std::map<std::string, std::string> words) {
+    return {.code = std::move(code), .severity = Severity::Error, .words = std::move(words)};
+}
+
+/// Verdicts whose reviewer saw the record's head.
+struct Witness {
+    std::string name;
+    VerdictFile verdicts;
+    std::int64_t entry = 0;  ///< that has the head; 0: none
+};
+
+std::int64_t entry_with(const RecordCheck& record, const std::string& hash) {
+    const auto found = std::ranges::find(record.entries, hash, &ChainEntry::hash);
+    return found == record.entries.end() ? 0 : found->number;
+}
+
+std::vector<Witness> witnesses(const std::vector<std::filesystem::path>& files,
+                               const std::vector<std::string>& stored, const RecordCheck& record) {
+    std::vector<Witness> list;
+    for (const std::filesystem::path& file : files)
+        list.push_back({bare_name(file), verdicts_from_file(file)});
+    for (const std::string& text : stored)
+        list.push_back(
+            {"verdicts in the project", verdicts_from_text(text, "verdicts in the project")});
+    for (Witness& witness : list) witness.entry = entry_with(record, witness.verdicts.chain_head);
+    return list;
+}
+
+/// Where a record was rewritten that no longer has what a witness saw.
+std::string rewritten_where(const Witness& witness, const std::vector<Witness>& all,
+                            const RecordCheck& record) {
+    std::int64_t last = 0, confirmed = 0;
+    for (const ChainEntry& entry : record.entries)
+        if (entry.time <= witness.verdicts.written) last = entry.number;
+    for (const Witness& other : all)
+        if (other.entry <= last) confirmed = std::max(confirmed, other.entry);
+    if (last == 0) return "as a whole after " + witness.verdicts.written;
+    if (confirmed == last) return "after entry " + std::to_string(last);
+    return "between entry " + std::to_string(confirmed + 1) + " and entry " + std::to_string(last);
+}
+
+void check_witnesses(const std::vector<Witness>& all, Audit& audit) {
+    for (const Witness& witness : all) {
+        const VerdictFile& verdicts = witness.verdicts;
+        if (verdicts.project != audit.record.project)
+            audit.findings.push_back(
+                finding("record-other-project", {{"file", witness.name},
+                                                 {"reviewer", printable(verdicts.reviewer)},
+                                                 {"name", printable(verdicts.project_name)}}));
+        else if (witness.entry == 0)
+            audit.findings.push_back(finding(
+                "record-rewritten", {{"file", witness.name},
+                                     {"reviewer", printable(verdicts.reviewer)},
+                                     {"head", verdicts.chain_head.substr(0, 12)},
+                                     {"where", rewritten_where(witness, all, audit.record)}}));
+        else
+            audit.verified.push_back(witness.name + ": " + printable(verdicts.reviewer) +
+                                     " saw the record up to entry " +
+                                     std::to_string(witness.entry) +
+                                     ", and it still is what it was");
+    }
+}
+
+void check_replay(Session& session, Audit& audit, const Progress& progress) {
+    std::size_t same = 0;
+    for (const ReplayEntry& entry : session.replay(progress)) {
+        const std::string name =
+            "edit " + std::to_string(entry.edit.id) + " " + printable(entry.operation);
+        if (!entry.differences.empty())
+            audit.findings.push_back(
+                finding("replay-differs",
+                        {{"name", name}, {"differences", joined(entry.differences, "; ")}}));
+        else if (entry.replayed)
+            ++same;
+        else
+            audit.unverified.push_back(name + " was not replayed: " + entry.note);
+    }
+    audit.verified.push_back(counted(same, "edit") + " of the current state " +
+                             (same == 1 ? "gives its" : "give their") + " stored result again");
+}
+
+/// What a record of this kind cannot show.
+void add_limits(const AuditOptions& options, Audit& audit) {
+    const RecordCheck& record = audit.record;
+    if (!record.entries.empty() && record.entries.front().kind == "found")
+        audit.unverified.push_back("what happened before " + record.entries.front().time +
+                                   ": the record begins with what was found in the project then");
+    if (record.referenced > 0)
+        audit.unverified.push_back(
+            counted(record.referenced, "image") +
+            " kept outside the project: only the SHA-256 of what was read is in it");
+    if (!options.replay)
+        audit.unverified.emplace_back(
+            "that the operations give the stored results: --replay runs them again");
+    if (options.against.empty())
+        audit.unverified.emplace_back(
+            "that the record was not rewritten from some entry on: --against compares it with "
+            "reviewers' files");
+    audit.unverified.emplace_back(
+        "who authors and reviewers are: names are as they were given, and nothing is signed");
+}
+
+void add_dropped(const Session& session, Audit& audit) {
+    const auto dropped =
+        std::ranges::count_if(session.snapshot()->history->results(),
+                              [](const auto& result) { return result.second.dropped; });
+    if (dropped > 0)
+        audit.unverified.push_back(counted(static_cast<std::size_t>(dropped), "result") +
+                                   " dropped by 'compact'");
+}
+
+/// What needs the project's contents, whose rows may be damaged.
+void read_project(const AuditOptions& options, Audit& audit, const Progress& progress) {
+    try {
+        Session session = Session::open(
+            options.project, {.find = options.find, .worker = options.worker, .only_reads = true});
+        check_witnesses(witnesses({}, session.project().verdicts(), audit.record), audit);
+        audit.statement = statement_of(session, options.find);
+        add_dropped(session, audit);
+        if (options.replay) check_replay(session, audit, progress);
+    } catch (const InvalidInput& error) {
+        audit.findings.push_back(finding("record-unreadable", {{"reason", error.what()}}));
+    }
+}
+
+}  // namespace
+
+Audit audit(const AuditOptions& options, const Progress& progress) {
+    Audit made{.project = bare_name(options.project)};
+    const double until = options.replay ? 0.3 : 1.0;
+    made.record = ProjectFile::open_to_read(options.project, "it is audited")
+                      .check_record(progress.part(0.0, until));
+    made.findings = made.record.findings;
+    if (made.findings.empty())
+        made.verified.push_back(counted(made.record.entries.size(), "entry", "entries") + " and " +
+                                counted(made.record.rows, "stored row") +
+                                " agree, and all stored data have their checksums");
+    check_witnesses(witnesses(options.against, {}, made.record), made);
+    read_project(options, made, progress.part(until, 1.0));
+    add_limits(options, made);
+    return made;
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "geometry/kernel/diagnostic.h"
+#include "workbench/project/record_check.h"
+#include "workbench/worker/run_operation.h"
+
+namespace vesselbench {
+
+struct AuditOptions {
+    std::filesystem::path project;
+    std::vector<std::filesystem::path> against;  ///< files of verdicts, which saw earlier heads
+    bool replay = false;                         ///< runs every edit of the current state again
+    OperationLookup find;                        ///< required
+    WorkerOptions worker = {};
+};
+
+/// A project's record, verified as far as it can be.
+struct Audit {
+    std::string project;                  ///< the file's name without its folder
+    RecordCheck record;                   ///< its findings are among `findings`
+    std::vector<Diagnostic> findings;     ///< empty: everything that can be verified is
+    std::vector<std::string> verified;    ///< what was verified, in words
+    std::vector<std::string> unverified;  ///< what cannot be, and why
+    nlohmann::ordered_json statement;     ///< statement_of(); null: the project cannot be read
+};
+
+/// Verifies a project against its record, beside whoever writes it, and leaves it as it is.
+/// \throw IoError, InvalidInput if the project cannot be read, or a file of verdicts is none
+[[nodiscard]] Audit audit(const AuditOptions& options, const Progress& progress = {});
+
+}  // namespace vesselbench

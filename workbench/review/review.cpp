@@ -1,0 +1,278 @@
+#include "workbench/review/review.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "geometry/kernel/bare_name.h"
+#include "geometry/kernel/diagnosed_error.h"
+#include "geometry/kernel/printable.h"
+#include "geometry/kernel/wording.h"
+#include "workbench/case/json_text.h"
+#include "workbench/project/content_hash.h"
+#include "workbench/project/project.h"
+#include "workbench/project/record_check.h"
+#include "workbench/project/stored_text.h"
+
+namespace vesselbench {
+
+namespace {
+
+std::string sha256(const std::string& text) {
+    ContentHash hash;
+    hash.add(std::as_bytes(std::span(text)));
+    return hash.hex();
+}
+
+bool decides(Verdict verdict) {
+    return verdict == Verdict::Accept || verdict == Verdict::Reject;
+}
+
+/// By reviewer: the newest, of equal times the one entered last.
+using ByReviewer = std::map<std::string, GivenVerdict>;
+
+void keep_newest(ByReviewer& verdicts, GivenVerdict verdict) {
+    const auto [found, is_new] = verdicts.try_emplace(verdict.reviewer, verdict);
+    if (!is_new && found->second.time <= verdict.time) found->second = std::move(verdict);
+}
+
+std::vector<GivenVerdict> list_of(const ByReviewer& verdicts) {
+    std::vector<GivenVerdict> list;
+    for (const auto& [reviewer, verdict] : verdicts) list.push_back(verdict);
+    return list;
+}
+
+ReviewStatus status_of(const std::vector<GivenVerdict>& verdicts) {
+    bool accepted = false, rejected = false, outdated = false;
+    for (const GivenVerdict& given : verdicts) {
+        accepted |= !given.outdated && given.verdict == Verdict::Accept;
+        rejected |= !given.outdated && given.verdict == Verdict::Reject;
+        outdated |= given.outdated && decides(given.verdict);
+    }
+    if (accepted && rejected) return ReviewStatus::Disputed;
+    if (accepted) return ReviewStatus::Accepted;
+    if (rejected) return ReviewStatus::Rejected;
+    return outdated ? ReviewStatus::Outdated : ReviewStatus::Open;
+}
+
+/// A verdict on the whole holds while every edit is one that its file saw.
+bool saw_all(const VerdictFile& file, const std::vector<ReviewedEdit>& edits) {
+    std::set<std::string> seen;
+    for (const EditVerdict& verdict : file.edits) seen.insert(verdict.hash);
+    return std::ranges::all_of(edits,
+                               [&](const ReviewedEdit& edit) { return seen.contains(edit.hash); });
+}
+
+std::vector<VerdictFile> stored_verdicts(const ProjectFile& project) {
+    std::vector<VerdictFile> files;
+    for (const std::string& text : project.verdicts())
+        files.push_back(verdicts_from_text(text, "the stored verdicts"));
+    return files;
+}
+
+void add_verdicts(const std::vector<VerdictFile>& files, ReviewedEdit& edit) {
+    ByReviewer newest;
+    for (const VerdictFile& file : files)
+        for (const EditVerdict& verdict : file.edits)
+            if (verdict.edit.id == edit.edit.id && verdict.verdict != Verdict::None)
+                keep_newest(newest, {.reviewer = file.reviewer,
+                                     .role = file.role,
+                                     .time = verdict.time,
+                                     .verdict = verdict.verdict,
+                                     .comment = verdict.comment,
+                                     .revision = verdict.edit.revision,
+                                     .outdated = verdict.hash != edit.hash});
+    edit.verdicts = list_of(newest);
+    edit.status = status_of(edit.verdicts);
+}
+
+Review review_of(const ProjectFile& project, const std::vector<LogEntry>& log) {
+    const std::vector<VerdictFile> files = stored_verdicts(project);
+    Review review{.files = files.size()};
+    for (const LogEntry& entry : log)
+        add_verdicts(files,
+                     review.edits.emplace_back(ReviewedEdit{.edit = entry.edit.edit,
+                                                            .place = entry.edit.place,
+                                                            .operation = entry.edit.operation,
+                                                            .hash = edit_hash(project, entry)}));
+    ByReviewer overall;
+    for (const VerdictFile& file : files)
+        if (file.overall != Verdict::None)
+            keep_newest(overall, {.reviewer = file.reviewer,
+                                  .role = file.role,
+                                  .time = file.written,
+                                  .verdict = file.overall,
+                                  .comment = file.overall_comment,
+                                  .outdated = !saw_all(file, review.edits)});
+    review.overall = list_of(overall);
+    return review;
+}
+
+std::set<std::string> accepting(const Review& review) {
+    std::set<std::string> names;
+    for (const ReviewedEdit& edit : review.edits)
+        for (const GivenVerdict& given : edit.verdicts)
+            if (given.verdict == Verdict::Accept && !given.outdated) names.insert(given.reviewer);
+    return names;
+}
+
+std::string edit_words(const ReviewedEdit& edit) {
+    return std::to_string(edit.edit.id) + " " + printable(edit.operation);
+}
+
+/// "rejected by A. Kern", "accepted by 1 of 2"
+std::string lack_of(const ReviewedEdit& edit, std::size_t reviewers) {
+    if (edit.status != ReviewStatus::Rejected && edit.status != ReviewStatus::Accepted)
+        return to_string(edit.status);
+    std::vector<std::string> names;
+    for (const GivenVerdict& given : edit.verdicts)
+        if (!given.outdated && decides(given.verdict)) names.push_back(printable(given.reviewer));
+    if (edit.status == ReviewStatus::Rejected) return "rejected by " + enumerated(names);
+    return "accepted by " + std::to_string(names.size()) + " of " + std::to_string(reviewers);
+}
+
+bool is_accepted(const ReviewedEdit& edit, std::size_t reviewers) {
+    const auto accepts = std::ranges::count_if(edit.verdicts, [](const GivenVerdict& given) {
+        return !given.outdated && given.verdict == Verdict::Accept;
+    });
+    return edit.status == ReviewStatus::Accepted && static_cast<std::size_t>(accepts) >= reviewers;
+}
+
+/// \throw InvalidInput unless the verdicts are of this project's record
+void check_origin(const VerdictFile& file, const std::string& name, const Session& session) {
+    const ProjectFile& project = session.project();
+    if (file.project != project.id())
+        throw InvalidInput(name + ".project.id is another project's, " +
+                           shortened(printable(file.project_name)) + ": import it there");
+    const History& history = *session.snapshot()->history;
+    for (std::size_t i = 0; i < file.edits.size(); ++i)
+        if (!history.edits().contains(file.edits[i].edit))
+            throw InvalidInput(
+                name + ".edits[" + std::to_string(i) + "].edit: this project has no revision " +
+                std::to_string(file.edits[i].edit.revision) + " of edit " +
+                std::to_string(file.edits[i].edit.id) + "; the verdicts are of another copy of it");
+    if (!project.has_entry(file.chain_head))
+        throw InvalidInput(name +
+                           ".chain_head is no entry of this project's record: the verdicts are of "
+                           "another copy of it, or its record was rewritten ('audit --against' "
+                           "says more)");
+}
+
+std::string facts_of(const VerdictFile& file) {
+    nlohmann::ordered_json edits = nlohmann::ordered_json::object();
+    for (const EditVerdict& verdict : file.edits)
+        edits[std::to_string(verdict.edit.id) + "." + std::to_string(verdict.edit.revision)] =
+            to_string(verdict.verdict);
+    return text_from_json({{"reviewer", file.reviewer},
+                           {"role", file.role},
+                           {"written", file.written},
+                           {"chain_head", file.chain_head},
+                           {"overall", to_string(file.overall)},
+                           {"edits", edits}});
+}
+
+}  // namespace
+
+std::string to_string(ReviewStatus status) {
+    switch (status) {
+        case ReviewStatus::Accepted:
+            return "accepted";
+        case ReviewStatus::Rejected:
+            return "rejected";
+        case ReviewStatus::Disputed:
+            return "disputed";
+        case ReviewStatus::Outdated:
+            return "outdated";
+        case ReviewStatus::Open:
+            break;
+    }
+    return "open";
+}
+
+std::string edit_hash(const ProjectFile& project, const LogEntry& entry) {
+    const EditRecord& edit = entry.edit;
+    return sha256(
+        nlohmann::json({{"edit", edit.edit.id},
+                        {"revision", edit.edit.revision},
+                        {"step", to_string(edit.place.step)},
+                        {"variant", edit.place.variant},
+                        {"operation", edit.operation},
+                        {"arguments", stored_text(edit.given)},
+                        {"resolved", entry.result ? stored_text(entry.result->resolved) : ""},
+                        {"result", entry.result ? project.digest(entry.result->id) : ""}})
+            .dump());
+}
+
+Review review_of(const Session& session) {
+    return review_of(session.project(), session.log());
+}
+
+Review review_of(const Session& session, const std::string& variant) {
+    return review_of(session.project(), session.log(variant));
+}
+
+ReviewStatus status_of(const Review& review) {
+    using enum ReviewStatus;
+    std::set<ReviewStatus> found;
+    for (const ReviewedEdit& edit : review.edits) found.insert(edit.status);
+    for (const GivenVerdict& given : review.overall)
+        if (!given.outdated && given.verdict == Verdict::Reject) found.insert(Rejected);
+    if (found.empty()) return Open;
+    for (const ReviewStatus status : {Rejected, Disputed, Outdated, Open})
+        if (found.contains(status)) return status;
+    return Accepted;
+}
+
+std::string review_words(const Review& review) {
+    if (review.files == 0) return "not reviewed";
+    const ReviewStatus status = status_of(review);
+    const std::set<std::string> names = accepting(review);
+    if (status == ReviewStatus::Accepted)
+        return printable("accepted by " +
+                         joined(std::vector<std::string>(names.begin(), names.end())));
+    const auto accepted =
+        std::ranges::count(review.edits, ReviewStatus::Accepted, &ReviewedEdit::status);
+    return to_string(status) + ": " + std::to_string(accepted) + " of " +
+           counted(review.edits.size(), "edit") + " accepted";
+}
+
+std::vector<std::string> missing_acceptance(const Review& review, std::size_t reviewers) {
+    std::vector<std::string> missing;
+    for (const ReviewedEdit& edit : review.edits)
+        if (!is_accepted(edit, reviewers))
+            missing.push_back(edit_words(edit) + " (" + lack_of(edit, reviewers) + ")");
+    for (const GivenVerdict& given : review.overall)
+        if (!given.outdated && given.verdict == Verdict::Reject)
+            missing.push_back("the whole model (rejected by " + printable(given.reviewer) + ")");
+    return missing;
+}
+
+void require_accepted(const Review& review, std::size_t reviewers) {
+    const std::vector<std::string> missing = missing_acceptance(review, reviewers);
+    if (missing.empty()) return;
+    throw DiagnosedFailure({.code = "not-accepted",
+                            .figures = {{"reviewers", static_cast<double>(reviewers)},
+                                        {"missing", static_cast<double>(missing.size())}},
+                            .words = {{"edits", joined(missing)}}});
+}
+
+ImportedVerdicts import_verdicts(Session& session, const std::filesystem::path& file) {
+    ImportedVerdicts done{.verdicts = verdicts_from_file(file)};
+    check_origin(done.verdicts, bare_name(file), session);
+    const std::string text = text_of(done.verdicts);
+    done.known = !session.add_verdicts(
+        text, sha256(text),
+        {.kind = "verdicts", .subject = done.verdicts.reviewer, .facts = facts_of(done.verdicts)});
+    std::set<std::string> now;
+    for (const LogEntry& entry : session.log()) now.insert(edit_hash(session.project(), entry));
+    done.outdated = static_cast<std::size_t>(
+        std::ranges::count_if(done.verdicts.edits, [&](const EditVerdict& verdict) {
+            return verdict.verdict != Verdict::None && !now.contains(verdict.hash);
+        }));
+    return done;
+}
+
+}  // namespace vesselbench

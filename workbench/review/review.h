@@ -1,0 +1,87 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "workbench/review/verdicts.h"
+#include "workbench/session/session.h"
+
+namespace vesselbench {
+
+/// SHA-256 of an edit as it is in a state: its operation, place, arguments, revision, what it
+/// decided by itself, and the digest of its result. A verdict holds for what has the same hash.
+[[nodiscard]] std::string edit_hash(const ProjectFile& project, const LogEntry& entry);
+
+/// The newest verdict of one reviewer on one edit.
+struct GivenVerdict {
+    std::string reviewer, role, time;
+    Verdict verdict = Verdict::None;
+    std::string comment;
+    int revision = 1;       ///< that was reviewed
+    bool outdated = false;  ///< the edit, or its result, is another one now
+};
+
+enum class ReviewStatus : std::uint8_t {
+    Open,      ///< nobody has decided
+    Accepted,  ///< by at least one reviewer, and rejected by none
+    Rejected,  ///< by at least one reviewer, and accepted by none
+    Disputed,  ///< accepted by one, rejected by another
+    Outdated   ///< decided for an earlier revision or result only
+};
+
+[[nodiscard]] std::string to_string(ReviewStatus status);
+
+/// An edit of the current state with its verdicts.
+struct ReviewedEdit {
+    EditRef edit;
+    EditPlace place;
+    std::string operation;
+    std::string hash;
+    ReviewStatus status = ReviewStatus::Open;
+    std::vector<GivenVerdict> verdicts;  ///< by reviewer, ascending
+};
+
+/// The reviews of the current state.
+struct Review {
+    std::vector<ReviewedEdit> edits;    ///< by step, then time
+    std::vector<GivenVerdict> overall;  ///< of the whole model, by reviewer
+    std::size_t files = 0;              ///< that were entered
+};
+
+/// \throw InvalidInput if stored verdicts are damaged
+[[nodiscard]] Review review_of(const Session& session);
+
+/// The part of a review that a variant's model consists of.
+[[nodiscard]] Review review_of(const Session& session, const std::string& variant);
+
+/// Of all its edits and of the verdicts on the whole: rejected before disputed, outdated, open,
+/// accepted.
+[[nodiscard]] ReviewStatus status_of(const Review& review);
+
+/// One line: "accepted by A. Kern, B. Roth"; "open: 2 of 5 edits are accepted".
+[[nodiscard]] std::string review_words(const Review& review);
+
+/// What is missing until `reviewers` have accepted every edit and nobody has rejected one, or the
+/// whole: "2 smooth (open)". Empty: nothing.
+[[nodiscard]] std::vector<std::string> missing_acceptance(const Review& review,
+                                                          std::size_t reviewers);
+
+/// \throw DiagnosedFailure that names what missing_acceptance() finds
+void require_accepted(const Review& review, std::size_t reviewers);
+
+/// What became of a file of verdicts.
+struct ImportedVerdicts {
+    VerdictFile verdicts;
+    bool known = false;        ///< the same verdicts were entered before
+    std::size_t outdated = 0;  ///< verdicts on what is another edit or result now
+};
+
+/// Enters a reviewer's verdicts into the project, once.
+/// \throw InvalidInput that names the file and the field, also if they are another project's;
+/// IoError
+ImportedVerdicts import_verdicts(Session& session, const std::filesystem::path& file);
+
+}  // namespace vesselbench

@@ -1,0 +1,138 @@
+#include "workbench/review/statement.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include <nlohmann/json.hpp>
+
+#include "geometry/kernel/errors.h"
+#include "workbench/case/argument_texts.h"
+#include "workbench/case/measure_json.h"
+#include "workbench/project/project.h"
+#include "workbench/report/log_json.h"
+
+namespace vesselbench {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const Operation* known_operation(const OperationLookup& find, const std::string& name) {
+    try {
+        return &find(name);
+    } catch (const UsageError&) {  // of another version
+        return nullptr;
+    }
+}
+
+Json report_of(const LogEntry& entry) {
+    if (!entry.result || entry.result->report.empty()) return Json::object();
+    const Json report = Json::parse(entry.result->report, nullptr, false);
+    return report.is_object() ? report : Json::object();
+}
+
+/// The files that an edit has read, and what its report says of their resolution.
+void add_sources(const Session& session, const LogEntry& entry, Json& sources) {
+    for (const SourceFile& file : session.project().sources(entry.edit.edit)) {
+        Json source = {{"edit", entry.edit.edit.id},
+                       {"as", file.parameter},
+                       {"file", file.name},
+                       {"sha256", file.hash}};
+        const Json report = report_of(entry);
+        for (const char* key : {"format", "size_voxels", "spacing_mm", "units", "triangles"})
+            if (report.contains(key)) source[key] = report[key];
+        sources.push_back(std::move(source));
+    }
+}
+
+Json edit_json(const LogEntry& entry, const Operation* operation) {
+    const EditRecord& edit = entry.edit;
+    Json json = {
+        {"edit", edit.edit.id},
+        {"revision", edit.edit.revision},
+        {"step", to_string(edit.place.step)},
+        {"variant", edit.place.variant},
+        {"operation", edit.operation},
+        {"arguments", operation != nullptr ? argument_summary(*operation, edit.given) : "?"},
+        {"author", edit.author},
+        {"time", edit.time},
+        {"note", edit.note},
+        {"status", to_string(entry.status)},
+        {"effect", entry.result ? effect_text(*entry.result) : entry.reason}};
+    if (entry.result) json["accuracy"] = change_json(entry.result->change);
+    return json;
+}
+
+Json reviewers_json(const Review& review) {
+    struct Counts {
+        std::string role;
+        std::map<std::string, int> verdicts;
+    };
+
+    std::map<std::string, Counts> reviewers;
+    for (const ReviewedEdit& edit : review.edits)
+        for (const GivenVerdict& given : edit.verdicts) {
+            Counts& counts = reviewers[given.reviewer];
+            counts.role = given.role;
+            ++counts.verdicts[given.outdated ? "outdated" : to_string(given.verdict)];
+        }
+    Json list = Json::array();
+    for (const auto& [name, counts] : reviewers)
+        list.push_back({{"name", name}, {"role", counts.role}, {"verdicts", counts.verdicts}});
+    return list;
+}
+
+Json verdict_json(const GivenVerdict& given) {
+    return {{"reviewer", given.reviewer}, {"role", given.role},
+            {"time", given.time},         {"verdict", to_string(given.verdict)},
+            {"comment", given.comment},   {"revision", given.revision},
+            {"outdated", given.outdated}};
+}
+
+Json verdicts_json(const std::vector<GivenVerdict>& verdicts) {
+    Json list = Json::array();
+    for (const GivenVerdict& given : verdicts) list.push_back(verdict_json(given));
+    return list;
+}
+
+}  // namespace
+
+Json statement_of(const Session& session, const OperationLookup& find) {
+    std::set<std::string> versions, operators;
+    Json sources = Json::array(), segmentation = Json::array(), edits = Json::array();
+    for (const LogEntry& entry : session.log()) {
+        const Operation* operation = known_operation(find, entry.edit.operation);
+        operators.insert(entry.edit.author);
+        if (entry.result) versions.insert(entry.result->program_version);
+        add_sources(session, entry, sources);
+        edits.push_back(edit_json(entry, operation));
+        if (operation != nullptr && operation->recipe.makes_source)
+            segmentation.push_back(edits.back());
+    }
+    const Review review = review_of(session);
+    return {{"program_versions", versions},  {"sources", sources},
+            {"segmentation", segmentation},  {"edits", edits},
+            {"operators", operators},        {"reviewers", reviewers_json(review)},
+            {"review", review_words(review)}};
+}
+
+Json review_json(const Review& review) {
+    Json edits = Json::array();
+    for (const ReviewedEdit& edit : review.edits)
+        edits.push_back({{"edit", edit.edit.id},
+                         {"revision", edit.edit.revision},
+                         {"step", to_string(edit.place.step)},
+                         {"variant", edit.place.variant},
+                         {"operation", edit.operation},
+                         {"hash", edit.hash},
+                         {"status", to_string(edit.status)},
+                         {"verdicts", verdicts_json(edit.verdicts)}});
+    return {{"status", review.files == 0 ? "not reviewed" : to_string(status_of(review))},
+            {"summary", review_words(review)},
+            {"files", review.files},
+            {"edits", edits},
+            {"overall", verdicts_json(review.overall)}};
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "workbench/session/session.h"
+
+namespace vesselbench {
+
+/// Enters into the project's record that a variant's model was written to a file or folder, with
+/// its SHA-256. A session that only reads enters nothing.
+/// \throw IoError if the file or the project cannot be read or written
+void record_export(Session& session, const std::filesystem::path& file, const std::string& variant);
+
+}  // namespace vesselbench
