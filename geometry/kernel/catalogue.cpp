@@ -561,6 +561,9 @@ constexpr CatalogueText kTexts[] = {
      "{file}: {reviewer} reviewed {name}, a project with another id: it is another project, or the "
      "record of this one was begun anew"},
     {"replay-differs", "replaying {name} gives another result than the stored one: {differences}"},
+    {"no-review-page",
+     "this program was built without npm, which bundles the review page: install nodejs and npm, "
+     "build it again, or review in another build"},
     {"not-accepted", "the review is not complete; missing: {edits}"},
 
     {"earlier-result", "{files} in this folder is of an earlier preparation, not of this model"},

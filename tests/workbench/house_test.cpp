@@ -240,6 +240,7 @@ const Names kDeclareWithoutSource = {"geometry/vessel/ends/end_weights.h",
                                      "workbench/report/label_font.h",
                                      "workbench/report/report_template.h",
                                      "workbench/review/audit_template.h",
+                                     "workbench/review/review_page_bytes.h",
                                      "workbench/window/style/embedded_fonts.h",
                                      "workbench/commands/commands.h"};
 

@@ -252,11 +252,14 @@ bool audit_project(const AuditArguments& arguments, const Progress& progress);
 struct ReviewArguments {
     std::string project;
     std::vector<std::string> imported;  ///< files of verdicts
+    std::string page;                   ///< to be written for reviewers; empty: none
+    std::string variant;                ///< of the page; empty: the only one, or the usual one
     bool json = false;
 };
 
-/// Enters reviewers' verdicts, and lists how every edit was judged.
-void review_project(const ReviewArguments& arguments);
+/// Enters reviewers' verdicts, lists how every edit was judged, and writes the page on which
+/// reviewers look at them.
+void review_project(const ReviewArguments& arguments, const Progress& progress);
 
 struct WindowOptions {
     std::string file;        ///< to open at once; empty: the start screen

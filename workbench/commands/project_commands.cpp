@@ -140,13 +140,20 @@ void add_audit(CommandLine& line) {
 void add_review(CommandLine& line) {
     const auto options = std::make_shared<ReviewArguments>();
     CLI::App& command =
-        add_command(line, "review", "List how the edits were judged; enter reviewers' verdicts",
-                    [options] { return review_project(*options), 0; });
+        add_command(line, "review",
+                    "Write the page on which experts review the edits; enter their verdicts; list "
+                    "how every edit was judged",
+                    [options, &line] { return review_project(*options, line.progress), 0; });
     add_project(command, options->project);
     command
         .add_option("--import", options->imported,
                     "Enter the verdicts that a reviewer has saved, once each")
         ->type_name("VERDICTS.json");
+    command
+        .add_option("--out", options->page,
+                    "Write one self-contained page with the variant's edits, for any browser")
+        ->type_name("PAGE.html");
+    add_variant(command, options->variant, "Variant of the page: cfd, rp or a name");
     add_json(command, options->json);
 }
 

@@ -1,10 +1,13 @@
 #include "workbench/review/review.h"
 
+#include <filesystem>
 #include <iostream>
 
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/bare_name.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/pending_files.h"
 #include "geometry/kernel/printable.h"
 #include "geometry/kernel/wording.h"
 #include "workbench/case/json_text.h"
@@ -12,7 +15,9 @@
 #include "workbench/commands/console.h"
 #include "workbench/operations/table.h"
 #include "workbench/project/project.h"
+#include "workbench/review/review_page.h"
 #include "workbench/review/statement.h"
+#include "workbench/session/edit_place.h"
 
 namespace vesselbench {
 
@@ -54,9 +59,23 @@ std::string import_words(const std::string& file, const ImportedVerdicts& done) 
                 : "");
 }
 
+/// Written beside its place and renamed, as all results are.
+void write_page(Session& session, const ReviewArguments& arguments, const Progress& progress) {
+    if (std::filesystem::exists(arguments.page) && session.is_source(arguments.page))
+        throw UsageError(bare_name(arguments.page) + " is a file that the case was made from");
+    const std::string variant =
+        variant_meant(arguments.variant, *session.snapshot()->history);
+    const std::string page = review_page(session, variant, find_operation, progress);
+    PendingFiles files;
+    (void)files.add_text(arguments.page, page);
+    files.commit();
+    remark(bare_name(arguments.page) + ": a page for reviewers, " +
+           formatted(static_cast<double>(page.size()) / 1e6, "%.1f MB"));
+}
+
 }  // namespace
 
-void review_project(const ReviewArguments& arguments) {
+void review_project(const ReviewArguments& arguments, const Progress& progress) {
     Session session = Session::open(arguments.project, {.find = find_operation});
     Json imported = Json::array();
     for (const std::string& file : arguments.imported) {
@@ -68,6 +87,7 @@ void review_project(const ReviewArguments& arguments) {
                             {"outdated", done.outdated},
                             {"known", done.known}});
     }
+    if (!arguments.page.empty()) write_page(session, arguments, progress);
     const Review review = review_of(session);
     if (!arguments.json) return print_review(review);
     Json json = {{"project", session.project().name()},

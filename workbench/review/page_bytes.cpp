@@ -1,0 +1,69 @@
+#include "workbench/review/page_bytes.h"
+
+#include <openssl/evp.h>
+#include <zlib.h>
+
+#include "geometry/kernel/errors.h"
+
+namespace vesselbench {
+
+namespace {
+
+template <class Number>
+void append_differences(std::string& bytes, std::span<const Number> numbers) {
+    const std::size_t begin = bytes.size(), count = numbers.size();
+    bytes.resize(begin + count * sizeof(Number));
+    Number before = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto difference = static_cast<Number>(numbers[i] - before);
+        before = numbers[i];
+        for (std::size_t b = 0; b < sizeof(Number); ++b)
+            bytes[begin + b * count + i] = static_cast<char>((difference >> (8 * b)) & 0xff);
+    }
+}
+
+template <class Number>
+void append_bytes(std::string& bytes, Number number) {
+    for (std::size_t b = 0; b < sizeof(Number); ++b)
+        bytes.push_back(static_cast<char>((number >> (8 * b)) & 0xff));
+}
+
+std::string deflated(const std::string& bytes) {
+    uLongf size = compressBound(bytes.size());
+    std::string packed(size, '\0');
+    if (compress2(reinterpret_cast<Bytef*>(packed.data()), &size,
+                  reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), 9) != Z_OK)
+        throw AlgorithmFailure("no memory to compress a page's data");
+    packed.resize(size);
+    return packed;
+}
+
+}  // namespace
+
+void append_plane(std::string& bytes, std::span<const std::uint16_t> numbers) {
+    append_differences(bytes, numbers);
+}
+
+void append_plane(std::string& bytes, std::span<const std::uint32_t> numbers) {
+    append_differences(bytes, numbers);
+}
+
+void append_number(std::string& bytes, std::uint16_t number) {
+    append_bytes(bytes, number);
+}
+
+void append_number(std::string& bytes, std::uint32_t number) {
+    append_bytes(bytes, number);
+}
+
+std::string packed_text(const std::string& bytes) {
+    const std::string packed = deflated(bytes);
+    std::string text(4 * ((packed.size() + 2) / 3) + 1, '\0');
+    const int length = EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()),
+                                       reinterpret_cast<const unsigned char*>(packed.data()),
+                                       static_cast<int>(packed.size()));
+    text.resize(static_cast<std::size_t>(length));
+    return text;
+}
+
+}  // namespace vesselbench

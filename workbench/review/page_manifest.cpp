@@ -1,0 +1,233 @@
+#include "workbench/review/page_manifest.h"
+
+#include <algorithm>
+#include <map>
+
+#include <nlohmann/json.hpp>
+
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/wording.h"
+#include "workbench/case/diagnostic_words.h"
+#include "workbench/case/purposes.h"
+#include "workbench/case/readable_name.h"
+#include "workbench/case/version.h"
+#include "workbench/project/project.h"
+#include "workbench/project/utc_time.h"
+#include "workbench/report/log_json.h"
+#include "workbench/review/page_queue.h"
+#include "workbench/review/review.h"
+
+namespace vesselbench {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Longer values, as the dabs of a stroke, are counted.
+constexpr std::size_t kLongestValue = 200;
+
+const Operation* known(const OperationLookup& find, const std::string& name) {
+    try {
+        return &find(name);
+    } catch (const UsageError&) {  // of another version
+        return nullptr;
+    }
+}
+
+Json point(const Vec3& p) {
+    return {p.x(), p.y(), p.z()};
+}
+
+std::string shown(const Value& value) {
+    if (const auto* records = std::get_if<Records>(&value))
+        return counted(records->list().size(), "record");
+    const std::string text = to_text(value);
+    return text.size() <= kLongestValue ? text
+                                        : text.substr(0, text.find(',', kLongestValue)) + "...";
+}
+
+std::string unit_of(const Operation* operation, const std::string& name) {
+    if (operation == nullptr) return "";
+    const auto parameter = std::ranges::find(operation->parameters, name, &Parameter::name);
+    return parameter == operation->parameters.end() || parameter->unit == "-" ? ""
+                                                                              : parameter->unit;
+}
+
+Json arguments_json(const Operation* operation, const Arguments& arguments,
+                    const Arguments& without, bool automatic) {
+    Json rows = Json::array();
+    for (const auto& [name, value] : arguments.values())
+        if (!without.has(name))
+            rows.push_back({{"name", readable(name)},
+                            {"value", shown(value)},
+                            {"unit", unit_of(operation, name)},
+                            {"automatic", automatic}});
+    return rows;
+}
+
+Json figures_json(const ResultRecord& result) {
+    Json rows = Json::array();
+    const auto add = [&](const char* name, const std::string& value, const char* unit) {
+        rows.push_back({{"name", name}, {"value", value}, {"unit", unit}});
+    };
+    const SurfaceChange& change = result.change;
+    if (change.volume_before) add("Volume before", formatted(*change.volume_before), "mm\u00B3");
+    if (change.volume_after) add("Volume after", formatted(*change.volume_after), "mm\u00B3");
+    if (change.largest_deviation)
+        add("Largest deviation", formatted(*change.largest_deviation), "mm");
+    if (change.mean_deviation) add("Mean deviation", formatted(*change.mean_deviation), "mm");
+    if (change.triangles_after > 0) add("Triangles", std::to_string(change.triangles_after), "");
+    if (const std::string effect = effect_text(result); !effect.empty()) add("Effect", effect, "");
+    return rows;
+}
+
+Json warnings_json(const ResultRecord& result) {
+    Json rows = Json::array();
+    for (const Diagnostic& warning : result.warnings) {
+        Json row = {{"text", readable_sentence(worded(warning, {.window = true}))}};
+        if (warning.place) row["place"] = point(*warning.place);
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+Json verdicts_json(const std::vector<GivenVerdict>& verdicts) {
+    Json rows = Json::array();
+    for (const GivenVerdict& given : verdicts)
+        rows.push_back({{"reviewer", given.reviewer},
+                        {"time", given.time},
+                        {"verdict", to_string(given.verdict)},
+                        {"comment", given.comment},
+                        {"revision", given.revision},
+                        {"outdated", given.outdated}});
+    return rows;
+}
+
+std::string status_word(EditStatus status) {
+    return status == EditStatus::Done ? "applied" : to_string(status);
+}
+
+/// Where and how much; only what is known.
+void add_model(const PageEditModel& model, Json& edit) {
+    if (model.before) edit["before"] = *model.before;
+    if (model.after) edit["after"] = *model.after;
+    if (!model.deviation.is_null()) edit["deviation"] = model.deviation;
+    if (model.place) {
+        edit["place"] = point(*model.place);
+        edit["outward"] = point(model.outward);
+    }
+    if (model.radius) edit["radius"] = *model.radius;
+    if (!model.changed) return;
+    edit["changed_box"] = point(model.changed->min);
+    for (const double coordinate : model.changed->max) edit["changed_box"].push_back(coordinate);
+}
+
+Json edit_json(const LogEntry& entry, const ReviewedEdit* reviewed, const PageModels& models,
+               const Operation* operation) {
+    const EditRecord& edit = entry.edit;
+    Json json = {{"id", edit.edit.id},
+                 {"revision", edit.edit.revision},
+                 {"hash", reviewed != nullptr ? reviewed->hash : ""},
+                 {"step", to_string(edit.place.step)},
+                 {"step_title", readable(to_string(edit.place.step))},
+                 {"operation", edit.operation},
+                 {"title", readable(edit.operation)},
+                 {"author", edit.author},
+                 {"time", edit.time},
+                 {"status", status_word(entry.status)},
+                 {"note", edit.note},
+                 {"arguments", arguments_json(operation, edit.given, {}, false)},
+                 {"before", nullptr},
+                 {"after", nullptr}};
+    if (entry.result) {
+        json["decided"] = arguments_json(operation, entry.result->resolved, edit.given, true);
+        json["figures"] = figures_json(*entry.result);
+        json["warnings"] = warnings_json(*entry.result);
+    } else if (!entry.reason.empty()) {
+        json["warnings"] = {{{"text", readable_sentence(entry.reason)}}};
+    }
+    if (reviewed != nullptr) json["verdicts"] = verdicts_json(reviewed->verdicts);
+    if (const auto model = models.edits.find(edit.edit.id); model != models.edits.end())
+        add_model(model->second, json);
+    return json;
+}
+
+Json queue_json(const std::vector<QueueItem>& queue) {
+    Json rows = Json::array();
+    for (const QueueItem& item : queue) {
+        Json row = {{"kind", item.kind},
+                    {"edit", item.edit},
+                    {"title", item.title},
+                    {"why", item.why},
+                    {"score", item.score}};
+        if (item.place) row["place"] = point(*item.place);
+        if (item.radius) row["radius"] = *item.radius;
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
+/// The first file that the case was made from, with what its edit's report says of its resolution.
+Json source_json(const Session& session, const std::vector<LogEntry>& log) {
+    for (const LogEntry& entry : log) {
+        const std::vector<SourceFile> files = session.project().sources(entry.edit.edit);
+        if (files.empty()) continue;
+        Json source = {{"file", files.front().name}};
+        const Json report =
+            entry.result ? Json::parse(entry.result->report, nullptr, false) : Json();
+        if (!report.is_object()) return source;
+        if (report.contains("format")) source["kind"] = report["format"];
+        if (report.contains("spacing_mm")) source["spacing"] = report["spacing_mm"];
+        if (report.contains("size_voxels")) source["size"] = report["size_voxels"];
+        return source;
+    }
+    return Json::object();
+}
+
+std::string purpose_title(const std::string& variant) {
+    const auto purpose = std::ranges::find(purposes(), variant, &Purpose::name);
+    return purpose == purposes().end() ? variant : purpose->title;
+}
+
+Json report_json(const std::vector<LogEntry>& log) {
+    for (auto entry = log.rbegin(); entry != log.rend(); ++entry)
+        if (entry->status == EditStatus::Done && entry->result) return figures_json(*entry->result);
+    return Json::array();
+}
+
+}  // namespace
+
+Json page_manifest(const Session& session, const std::string& variant,
+                   const std::vector<LogEntry>& log, const PageModels& models,
+                   const OperationLookup& find) {
+    const Review review = review_of(session, variant);
+    Json edits = Json::array(), neighbours = Json::array();
+    for (const LogEntry& entry : log) {
+        const auto reviewed = std::ranges::find(review.edits, entry.edit.edit, &ReviewedEdit::edit);
+        edits.push_back(edit_json(entry, reviewed == review.edits.end() ? nullptr : &*reviewed,
+                                  models, known(find, entry.edit.operation)));
+    }
+    for (const auto& [name, state] : models.neighbours)
+        neighbours.push_back({{"name", name}, {"state", state}});
+    Json manifest = {{"format", "vesselbench-review"},
+                     {"version", 1},
+                     {"program", version()},
+                     {"written", utc_now()},
+                     {"chain_head", session.project().record_head()},
+                     {"project",
+                      {{"id", session.project().id()},
+                       {"name", session.project().name()},
+                       {"purpose", purpose_title(variant)},
+                       {"units", "mm"},
+                       {"source", source_json(session, log)},
+                       {"variant", variant}}},
+                     {"holds", {"surfaces after every edit", "their contours"}}};
+    manifest.update(models.geometry.json());
+    manifest["neighbours"] = neighbours;
+    manifest["edits"] = edits;
+    manifest["queue"] = queue_json(review_queue(log, models, find));
+    manifest["report"] = report_json(log);
+    return manifest;
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geometry/kernel/progress.h"
+#include "workbench/review/page_geometry.h"
+#include "workbench/session/session.h"
+
+namespace vesselbench {
+
+/// What an edit did to the surface, for the review page.
+struct PageEditModel {
+    std::optional<std::size_t> before, after;  ///< states of the page's geometry; none: no surface
+    nlohmann::ordered_json deviation;          ///< of `after` from `before`; null: none
+    double largest = 0.0;                      ///< deviation [mm]
+    std::optional<Vec3> place;                 ///< of it [mm]
+    Vec3 outward = Vec3::Zero();               ///< unit normal of the surface there
+    std::optional<double> radius;              ///< of the vessel there, before the edit [mm]
+    std::optional<Bounds> changed;             ///< box of what moved or is new [mm]
+};
+
+/// The surfaces of a variant's edits as far as they have run.
+struct PageModels {
+    PageGeometry geometry;
+    std::map<EditId, PageEditModel> edits;
+    std::vector<std::pair<std::string, std::size_t>> neighbours;  ///< name, state
+};
+
+/// \param log of the variant, in order \throw what Session::result_scene() throws
+[[nodiscard]] PageModels page_models(Session& session, const std::vector<LogEntry>& log,
+                                     Progress progress = {});
+
+}  // namespace vesselbench

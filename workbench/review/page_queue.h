@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "workbench/review/page_models.h"
+
+namespace vesselbench {
+
+/// Something of a case that a reviewer should look at.
+struct QueueItem {
+    std::string kind;  ///< "deviation", "warning", "stale" or "decision"
+    EditId edit = 0;
+    std::string title, why;
+    double score = 0.0;            ///< larger: earlier
+    std::optional<Vec3> place;     ///< [mm]
+    std::optional<double> radius;  ///< of the vessel there [mm]
+};
+
+/// What to look at first: edits that no longer apply, changes that are large beside the vessel's
+/// radius, warnings, and decisions of the program.
+/// \param log of the variant, in order
+[[nodiscard]] std::vector<QueueItem> review_queue(const std::vector<LogEntry>& log,
+                                                  const PageModels& models,
+                                                  const OperationLookup& find);
+
+}  // namespace vesselbench
