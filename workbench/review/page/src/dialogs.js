@@ -5,7 +5,7 @@ const byId = (id) => document.getElementById(id);
 
 /** Shows the table of keys. */
 export function showHelp(commands) {
-  const rows = commands.map(({ keys, help }) => make('tr', {}, make('th', { scope: 'row' }, ...keys.flatMap((key, i) => [i ? ' ' : '', make('kbd', {}, key)])), make('td', {}, help)));
+  const rows = commands.map(({ keys, shown = keys, help }) => make('tr', {}, make('th', { scope: 'row' }, ...shown.flatMap((key, i) => [i ? ' ' : '', make('kbd', {}, key)])), make('td', {}, help)));
   fill(byId('help-body'), make('table', {}, make('tbody', {}, ...rows)));
   byId('help').showModal();
 }

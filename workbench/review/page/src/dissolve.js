@@ -1,5 +1,5 @@
 /** Two pictures of one camera, blended: what stays is steady, what changed fades over. */
-import { HalfFloatType, Mesh, OrthographicCamera, PlaneGeometry, Scene, ShaderMaterial, WebGLRenderTarget } from 'three';
+import { Color, HalfFloatType, Mesh, OrthographicCamera, PlaneGeometry, Scene, ShaderMaterial, WebGLRenderTarget } from 'three';
 
 const VERTEX = 'varying vec2 at; void main() { at = uv; gl_Position = vec4(position.xy, 0.0, 1.0); }';
 const FRAGMENT = `uniform sampler2D first; uniform sampler2D second; uniform float share; varying vec2 at;
@@ -18,13 +18,16 @@ export class Dissolve {
 
   /** @param {Function[]} draws two functions that draw a picture each @param {number} share of the second, in [0, 1] */
   render(renderer, width, height, draws, share) {
+    const ground = renderer.getClearColor(new Color());
     draws.forEach((draw, i) => {
       this.targets[i].setSize(width, height);
       renderer.setRenderTarget(this.targets[i]);
+      renderer.setClearColor(ground);  // once more: a target takes it in linear values, the screen in sRGB
       renderer.clear();
       draw();
     });
     renderer.setRenderTarget(null);
+    renderer.setClearColor(ground);
     this.material.uniforms.share.value = share;
     renderer.render(this.scene, this.camera);
   }

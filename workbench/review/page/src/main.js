@@ -19,7 +19,14 @@ import { makeCommands } from './commands.js';
 
 const byId = (id) => document.getElementById(id);
 
-function say(text) { byId('say').textContent = text; }
+const SAID = 6000;  // a message is seen so long [ms]; readers of the screen hear it at once
+let saying = 0;
+
+function say(text) {
+  byId('say').textContent = text;
+  clearTimeout(saying);
+  saying = setTimeout(() => { byId('say').textContent = ''; }, SAID);
+}
 
 /** A message that stays. */
 function notice(text) {
@@ -59,7 +66,7 @@ function showProgress(verdicts, kept) {
 function bindDrafts(verdicts) {
   const allowed = draftsAllowed();
   const report = allowed ? restoreDraft(verdicts) : null;
-  if (report && (report.taken || report.outdated.length)) say(`The draft of your verdicts is back: ${report.taken} edits.`);
+  if (report && (report.taken || report.outdated.length)) say(`The draft of your verdicts is back (${report.taken}).`);
   const changed = () => showProgress(verdicts, keepDraft(verdicts));
   verdicts.addEventListener('change', changed);
   showProgress(verdicts, allowed);

@@ -10,8 +10,9 @@ function label(text, { ground, ink, round }) {
   const context = canvas.getContext('2d');
   const font = `600 ${13 * SHARP}px system-ui, sans-serif`;
   context.font = font;
+  const width = Math.ceil(context.measureText(text).width) + 14 * SHARP;  // before the sizes: setting one resets the font
   canvas.height = HEIGHT * SHARP;
-  canvas.width = Math.max(canvas.height, Math.ceil(context.measureText(text).width) + 14 * SHARP);
+  canvas.width = Math.max(canvas.height, width);
   context.font = font;
   context.fillStyle = ground;
   context.strokeStyle = ink;

@@ -20,6 +20,7 @@ export class Pool {
     this.read = read;
     this.positions = new Float32Array(3 * manifest.vertices);
     this.corners = new Uint32Array(3 * manifest.triangles);
+    this.ready = new Uint8Array(manifest.vertices);  // vertices whose chunk is loaded
     this.chunks = new Map();
     this.surfaces = new Map();
   }
@@ -58,6 +59,7 @@ export class Pool {
       const { points, corners } = decodeChunk(bytes, chunk.vertices, chunk.triangles, chunk.firstVertex + chunk.vertices);
       dequantise(points, this.manifest.box, this.positions, 3 * chunk.firstVertex);
       this.corners.set(corners, 3 * chunk.firstTriangle);
+      this.ready.fill(1, chunk.firstVertex, chunk.firstVertex + chunk.vertices);
     });
   }
 
@@ -78,8 +80,17 @@ export class Pool {
     await Promise.all(state.chunks.map((chunk) => this.chunk(chunk)));
     const bytes = await this.bytes(state.blob, stateSize(state.runs));
     const runs = await this.named(state.blob, async () =>
-      decodeState(bytes, state.runs, this.manifest.triangles, state.patches.length));
+      this.complete(decodeState(bytes, state.runs, this.manifest.triangles, state.patches.length)));
     return makeSurface(runs, state.patches, this.corners, this.positions);
+  }
+
+  /** Refuses a state that uses triangles or vertices of a chunk it does not name: it would be drawn wrong. */
+  complete(runs) {
+    const loaded = (triangle) => this.corners[3 * triangle] !== this.corners[3 * triangle + 1] && [0, 1, 2].every((c) => this.ready[this.corners[3 * triangle + c]]);
+    for (let run = 0; run < runs.first.length; ++run)
+      for (let i = 0; i < runs.count[run]; ++i)
+        if (!loaded(runs.first[run] + i)) throw new DataError('uses geometry that it does not name');
+    return runs;
   }
 
   /** Deviations [mm] of the vertices of an edit's surface after it, in their order. */

@@ -1,6 +1,6 @@
 /** Slices through the place of an edit: both contours, over the image where the page has it, with a scale bar. */
 import { cutSurface, ORTHOGONAL } from './contours.js';
-import { figure, fill, make } from './text.js';
+import { fill, make } from './text.js';
 
 const NICE = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100];  // lengths of a scale bar [mm]
 /** The longest bar that takes at most `room` pixels. @param {number} perPixel [mm] */
@@ -8,16 +8,21 @@ export const barLength = (perPixel, room) => NICE.filter((mm) => mm / perPixel <
 
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 
+/** Whether two planes show the same rows and columns, in the same directions. */
+const parallel = (a, b) => dot(a.u, b.u) + dot(a.v, b.v) > 1.99;
+
 /** The planes to show: those of the page's image slices first, completed by orthogonal ones to three. */
 function planesOf(edit, place) {
-  const own = edit.slices.map((image, i) => ({ title: edit.slices.length > 1 ? `Image slice ${i + 1}` : 'Image slice', origin: place, u: image.u, v: image.v, image }));
+  const own = edit.slices.map((image) => {
+    const { name, letters } = ORTHOGONAL.find((plane) => parallel(plane, image)) ?? { name: 'Oblique' };
+    return { title: `${name}, image`, origin: place, u: image.u, v: image.v, image, letters };
+  });
   // An image slice is shown where it was taken: the place is moved into its plane.
   for (const plane of own) {
     const d = plane.origin.map((x, k) => x - plane.image.origin[k]);
     const [s, t] = [dot(d, plane.u), dot(d, plane.v)];
     plane.origin = plane.image.origin.map((x, k) => x + s * plane.u[k] + t * plane.v[k]);
   }
-  const parallel = (a, b) => Math.abs(dot(a.u, b.u)) + Math.abs(dot(a.v, b.v)) > 1.99;
   const rest = ORTHOGONAL.map((plane) => ({ title: plane.name, origin: place, ...plane })).filter((plane) => !own.some((one) => parallel(one, plane)));
   return [...own, ...rest].slice(0, 3);
 }
@@ -135,7 +140,7 @@ export class Slices {
   }
 
   describe(one, plane) {
-    const at = plane.axis === undefined ? '' : `, ${'xyz'[plane.axis]} = ${figure(plane.origin[plane.axis])} mm`;
+    const at = plane.axis === undefined ? '' : `, ${'xyz'[plane.axis]} = ${plane.origin[plane.axis].toFixed(1)} mm`;
     fill(one.caption, `${plane.title}${at}`);
     const shown = [one.before && 'dashed before', one.after && 'solid after'].filter(Boolean).join(', ');
     one.canvas.setAttribute('aria-label', `${plane.title} slice${at}: contours ${shown}`);

@@ -113,8 +113,9 @@ export class Workplace {
     this.blinkButton.disabled = !(before && after);
     const mode = this.mode;
     byId('work').classList.toggle('large-slices', mode === 'slices');
+    byId('view').classList.toggle('split', mode === 'side' && !this.stage?.blinkSide);
     byId('share-row').hidden = mode !== 'dissolve';
-    const side = mode === 'side';
+    const side = mode === 'side' && !this.stage?.blinkSide;
     const single = this.stage?.blinkSide ?? { after: 'after', before: 'before', deviation: 'after' }[mode];
     byId('label-left').hidden = !(side || single);
     byId('label-left').textContent = side || single === 'before' ? 'Before' : mode === 'deviation' && !this.stage?.blinkSide ? 'Deviation, after' : 'After';
@@ -201,7 +202,7 @@ export class Workplace {
   }
 
   drawScaleBar() {
-    const { perPixel } = { perPixel: this.stage.view.perPixel(this.canvas.clientHeight) };
+    const perPixel = this.stage.view.perPixel(this.canvas.clientHeight);
     const mm = barLength(perPixel, 110);
     byId('scale-bar').style.width = `${mm / perPixel}px`;
     byId('scale-bar').firstElementChild.textContent = `${mm} mm`;

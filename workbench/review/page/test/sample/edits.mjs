@@ -86,9 +86,9 @@ function cutAway(mesh, gone, place, patch) {
   return compacted({ points, triangles, patch: labels, patches });
 }
 
-/** Cuts off what lies beyond a plane and within `reach` [mm] of its origin, and caps it flat. */
-export function clip(mesh, origin, normal, reach, patch) {
-  const beyond = (i) => dot(minus(mesh.points[i], origin), normal) > 0 && distance(mesh.points[i], origin) < reach;
+/** Cuts off what lies beyond a plane and within `reach` [mm] of `around`, and caps it flat. */
+export function clip(mesh, origin, normal, reach, patch, around = origin) {
+  const beyond = (i) => dot(minus(mesh.points[i], origin), normal) > 0 && distance(mesh.points[i], around) < reach;
   const onPlane = (p) => plus(p, normal, -dot(minus(p, origin), normal));
   return cutAway(mesh, (t) => t.some(beyond), onPlane, patch);
 }

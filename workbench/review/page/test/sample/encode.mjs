@@ -41,7 +41,7 @@ export class Packer {
   /** @param {number[]} box of all positions [mm] */
   constructor(box) {
     Object.assign(this, { box, blobs: {}, chunks: [], states: [], pointIds: new Map(), triangleIds: new Map(),
-                          owner: [] });
+                          owner: [], home: [] });
   }
 
   put(name, bytes) { this.blobs[name] = deflated(bytes); return name; }
@@ -74,7 +74,8 @@ export class Packer {
     this.addChunk(points, triangles);
     const encoded = encodeState(ids, patch);
     const number = this.states.length;
-    const chunks = [...new Set(ids.map((id) => this.owner[id]))].sort((a, b) => a - b);
+    // A chunk's triangles may have corners of earlier chunks: those are needed, too.
+    const chunks = [...new Set([...ids.map((id) => this.owner[id]), ...vertices.map((id) => this.home[id])])].sort((a, b) => a - b);
     this.states.push({ blob: this.put(`state-${number}`, encoded.bytes), runs: encoded.runs, chunks, patches: mesh.patches });
     return { state: number, vertices };
   }
@@ -83,6 +84,7 @@ export class Packer {
     if (!points.length && !triangles.length) return;
     const number = this.chunks.length;
     for (let i = 0; i < triangles.length; ++i) this.owner.push(number);
+    for (let i = 0; i < points.length; ++i) this.home.push(number);
     this.chunks.push({ blob: this.put(`chunk-${number}`, encodeChunk(points, triangles)), vertices: points.length, triangles: triangles.length });
   }
 

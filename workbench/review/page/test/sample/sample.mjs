@@ -24,7 +24,7 @@ function script(rng, h) {
     { step: 'source', title: 'Fill the hole in the dome', operation: 'fill-hole', place: hole, radius: 1.2, run: fillHoles,
       arguments: [value('max_size', 3, 'mm')], figures: [value('holes filled', 1), value('area added', 2.31, 'mm²')], warnings: [] },
     { step: 'branches', title: 'Remove a twig at the parent artery', operation: 'remove-branch', place: twig, radius: 1.6,
-      run: (m) => clip(m, [1.5, 3.35, -4.55], unit([-4.5, 1.6, -1.5]), 4.8, null),
+      run: (m) => clip(m, [1.35, 3.4, -4.5], unit([-4.5, 1.6, 0]), 2.9, null, [-0.8, 4.1, -5.1]),
       arguments: [value('tip', near([-2.1, 4.6, -5.6]), 'mm'), value('length', 4.1, 'mm', true)],
       figures: [value('volume removed', 3.8, 'mm³'), value('stump radius', 0.53, 'mm')],
       warnings: [warning('The removed branch carried an estimated 2.1 % of the flow.', twig)] },
@@ -55,9 +55,9 @@ function script(rng, h) {
       figures: [value('diameter', 1.87, 'mm'), value('share of flow', 36, '%')], warnings: [] },
     { step: 'smoothing', title: 'Smooth the wall, caps kept', operation: 'smooth', place: null,
       run: (m) => smooth(m, 5, () => 0.8), arguments: [value('filter', 'taubin'), value('iterations', 5), value('context', true)],
-      figures: [value('largest move', 0.09, 'mm'), value('volume change', -0.06, '%')], warnings: [] },
+      figures: [value('largest move', 0.21, 'mm'), value('volume change', -0.06, '%')], warnings: [] },
     { step: 'remeshing', title: 'Remesh to an edge length of 0.12 mm', operation: 'remesh', place: null,
-      run: (m) => (m.triangles.length < 50000 ? subdivide(m) : smooth(m, 1, () => 0.3)),  // of a size that a page holds
+      run: (m) => smooth(denser(m), 1, () => 0.3), reference: denser,
       arguments: [value('edge_length', 0.12, 'mm', true), value('keep_caps', true)],
       figures: [value('worst angle', 21.4, 'deg'), value('largest distance', 0.03, 'mm')], warnings: [] },
     { step: 'product', title: 'Extrude the outlets by 5 diameters', operation: 'extrude-opening', place: outlet1, radius: 1.4, run: null,
@@ -65,6 +65,9 @@ function script(rng, h) {
       warnings: [warning('This edit no longer applies: outlet_2 was clipped after it.', null)] },
   ];
 }
+
+/** Four triangles of one, unless the page would become larger than it ought to be. */
+const denser = (mesh) => (mesh.triangles.length < 50000 ? subdivide(mesh) : mesh);
 
 const STEPS = { source: 'Source', branches: 'Branches', 'local-repair': 'Local repair', openings: 'Openings',
                 smoothing: 'Smoothing', remeshing: 'Remeshing', product: 'Product' };
@@ -106,7 +109,7 @@ const QUEUE = [
   [6, 'decision', 'Inlet chosen by the program', 'The odds of this end being the inlet are 3 to 1.'],
   [2, 'deviation', 'A branch was removed', 'It carried an estimated 2.1 % of the flow.'],
   [1, 'finding', 'Hole in the dome', 'The patch is flat where the dome is round.'],
-  [9, 'deviation', 'Smoothing of the whole wall', 'The largest move is 0.09 mm.'],
+  [9, 'deviation', 'Smoothing of the whole wall', 'The largest move is 0.21 mm.'],
 ];
 
 /**
@@ -126,7 +129,7 @@ export function makeSample({ seed = 7, h = 0.42, slices = false, pictures = true
       last = own.after = added.state;
       own.changed_box = changedBox(before, mesh);
       if (before) {
-        const values = distances(mesh, before, 1);
+        const values = distances(mesh, edit.reference ? edit.reference(before) : before, 1);
         own.deviation = packer.deviation(`deviation-${k}`, values, added.vertices, values.reduce((a, b) => Math.max(a, b), 1e-6));
       }
       if (pictures) own.thumbnail = pictureOf(before, mesh, edit.place, edit.radius);
@@ -137,7 +140,7 @@ export function makeSample({ seed = 7, h = 0.42, slices = false, pictures = true
 }
 
 function finished(edit, k, own, mesh, slices) {
-  const { run, step, ...rest } = edit;
+  const { run, reference, step, ...rest } = edit;
   const figures = edit.figures.map((f) => (f.name === 'triangles' ? { ...f, value: mesh.triangles.length } : f));
   return { id: `e${k + 1}`, revision: k === 5 ? 2 : 1, hash: createHash('sha256').update(`${k} ${edit.title}`).digest('hex'), step,
            step_title: STEPS[step], author: k < 9 ? 'M. Operator' : 'S. Second', time: `2026-03-0${1 + (k > 5)}T1${k % 10}:2${k % 6}:00Z`,
