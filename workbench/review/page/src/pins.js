@@ -82,7 +82,7 @@ export class Marks {
    */
   show(entry, edit, openings, start) {
     this.clear();
-    for (const { place, name } of openings) this.put(plain(name, 24), place, NAME);
+    for (const { place, name } of openings) this.put(plain(name, 24), place, NAME, [0.5, -0.5]);
     edit.warnings.forEach(({ place }) => place && this.put('!', place, WARNING));
     entry.distances.forEach(({ from, to, mm }) => {
       this.line(from, to);
