@@ -11,13 +11,13 @@ const value = (name, v, unitName = '', automatic = false) => ({ name, value: v, 
 const warning = (text, place) => ({ text, place });
 
 /** The edits: what the operator did, in order. `run` makes the mesh after from the mesh before. */
-function script(rng, h) {
+function script(rng, h, refined) {
   const near = (p) => p.map((x) => Math.round(x * 10) / 10);
   const dome = PARTS.dome[0], neck = [6.2, 4.6, 2.2], narrow = onParent(0.29), twig = [1.9, 3.3, -4.4], hole = [3.4, 9.2, 3.1];
   const [inlet, outlet1, outlet2] = [onParent(0.08), onParent(0.92), PARTS.branch[11].slice(0, 3)];
   return [
     { step: 'source', title: 'Extract the surface at 215 HU', operation: 'extract-surface', place: null,
-      run: () => puncture(surfaceNets(vessel, BOX, h, () => (rng() - 0.5) * 0.11), hole, 0.9),
+      run: () => puncture(refined(surfaceNets(vessel, BOX, h, () => (rng() - 0.5) * 0.11)), hole, 0.9),
       arguments: [value('threshold', 215, 'HU', true), value('smooth_image', true)],
       figures: [value('triangles', null), value('volume', 612.4, 'mm³')],
       warnings: [warning('The threshold lies within 3 % of the point where the dome touches the branch.', dome)] },
@@ -113,14 +113,14 @@ const QUEUE = [
 ];
 
 /**
- * @param {{seed?: number, h?: number, slices?: boolean, pictures?: boolean}} options h: cell size of the first mesh [mm]
+ * @param {{seed?: number, h?: number, slices?: boolean, pictures?: boolean, refine?: boolean}} options h: cell size of the first mesh [mm]; refine: split its triangles in four
  * @returns {{manifest: object, blobs: object}} the page's data, base64 blobs by name
  */
-export function makeSample({ seed = 7, h = 0.42, slices = false, pictures = true } = {}) {
+export function makeSample({ seed = 7, h = 0.42, slices = false, pictures = true, refine = false } = {}) {
   const rng = random(seed);
   const packer = new Packer(BOX);
   let mesh = null, last = null;
-  const edits = script(rng, h).map((edit, k) => {
+  const edits = script(rng, h, refine ? subdivide : (mesh) => mesh).map((edit, k) => {
     const before = mesh;
     const own = { before: last, after: null, deviation: null, changed_box: null, thumbnail: '' };
     if (edit.run) {
