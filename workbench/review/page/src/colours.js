@@ -4,6 +4,9 @@
 export const BEFORE = 0xd55e00;
 export const AFTER = 0x0072b2;
 
+/** What was there before, beside a deviation map: a grey, as the map's own colours are taken. */
+export const GHOST = 0x7c8796;
+
 const WALL = 0xe3b3a2;
 const OUTLETS = [0xe69f00, 0x009e73, 0xcc79a7, 0x56b4e9, 0xf0e442, 0xd55e00];
 const hex = (colour) => `#${colour.toString(16).padStart(6, '0')}`;

@@ -58,7 +58,7 @@ export function makeModel(surface) {
     },
     addGhost(corners, colour) {
       addExtra('ghost', new Mesh(shared(attribute(corners, 1)), new MeshLambertMaterial({
-        color: colour, side: DoubleSide, transparent: true, opacity: 0.28, depthWrite: false })));
+        color: colour, side: DoubleSide, transparent: true, opacity: 0.5 })));
     },
     addDeviation(values, max) {
       const own = shared(geometry.index);

@@ -21,6 +21,7 @@ export class Pool {
     this.positions = new Float32Array(3 * manifest.vertices);
     this.corners = new Uint32Array(3 * manifest.triangles);
     this.ready = new Uint8Array(manifest.vertices);  // vertices whose chunk is loaded
+    this.readyTriangles = new Uint8Array(manifest.triangles);
     this.chunks = new Map();
     this.surfaces = new Map();
   }
@@ -60,6 +61,7 @@ export class Pool {
       dequantise(points, this.manifest.box, this.positions, 3 * chunk.firstVertex);
       this.corners.set(corners, 3 * chunk.firstTriangle);
       this.ready.fill(1, chunk.firstVertex, chunk.firstVertex + chunk.vertices);
+      this.readyTriangles.fill(1, chunk.firstTriangle, chunk.firstTriangle + chunk.triangles);
     });
   }
 
@@ -86,7 +88,7 @@ export class Pool {
 
   /** Refuses a state that uses triangles or vertices of a chunk it does not name: it would be drawn wrong. */
   complete(runs) {
-    const loaded = (triangle) => this.corners[3 * triangle] !== this.corners[3 * triangle + 1] && [0, 1, 2].every((c) => this.ready[this.corners[3 * triangle + c]]);
+    const loaded = (triangle) => this.readyTriangles[triangle] && [0, 1, 2].every((c) => this.ready[this.corners[3 * triangle + c]]);
     for (let run = 0; run < runs.first.length; ++run)
       for (let i = 0; i < runs.count[run]; ++i)
         if (!loaded(runs.first[run] + i)) throw new DataError('uses geometry that it does not name');

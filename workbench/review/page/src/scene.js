@@ -1,7 +1,7 @@
 /** The 3D view: the states before and after an edit with one camera, in the ways to compare them. */
 import { Color, DirectionalLight, Group, HemisphereLight, Raycaster, Scene, Vector2, WebGLRenderer } from 'three';
 import { View } from './camera.js';
-import { AFTER, BEFORE } from './colours.js';
+import { AFTER, BEFORE, GHOST } from './colours.js';
 import { Dissolve } from './dissolve.js';
 import { makeModel, makeNeighbour } from './models.js';
 
@@ -42,7 +42,7 @@ export class Stage {
     if (old && difference.removed.length) old.addMarked(difference.removed, BEFORE);
     if (now && difference.added.length) now.addMarked(difference.added, AFTER);
     // Where all of the surface moved a little, a ghost of the old one would only dim the map.
-    if (old && now && difference.removed.length && difference.removed.length < before.index.length / 2) old.addGhost(difference.removed, BEFORE);
+    if (old && now && difference.removed.length && difference.removed.length < before.index.length / 2) old.addGhost(difference.removed, GHOST);
     if (now && difference.deviation) now.addDeviation(difference.deviation, difference.max);
     this.redraw();
   }
@@ -92,24 +92,25 @@ export class Stage {
   }
 
   drawSide(name, marks = true) {
+    const ghost = this.sides.before.model?.extra.ghost;
+    if (this.mode === 'deviation' && name === 'after' && ghost && !this.blinkSide) this.drawGhost(ghost);
     this.prepare(name);
     const { scene } = this.sides[name];
     scene.add(this.neighbours);
     this.renderer.render(scene, this.view.camera);
-    const ghost = this.sides.before.model?.extra.ghost;
-    if (this.mode === 'deviation' && name === 'after' && ghost && !this.blinkSide) this.drawGhost(ghost);
     if (!marks) return;
     this.onframe(this.view.perPixel(this.canvas.clientHeight));
     this.renderer.render(this.marks, this.view.camera);
   }
 
-  /** The removed part of the surface before, over the map of the one after. */
+  /** The removed part of the surface before, behind all of the map: seen through it, the map's colours would be wrong. */
   drawGhost(ghost) {
     const { model, scene } = this.sides.before;
     this.prepare('before');
     model.patches.visible = false;
     for (const mesh of Object.values(model.extra)) mesh.visible = mesh === ghost;
     this.renderer.render(scene, this.view.camera);
+    this.renderer.clearDepth();
   }
 
   draw() {

@@ -140,7 +140,7 @@ export class Slices {
   }
 
   describe(one, plane) {
-    const at = plane.axis === undefined ? '' : `, ${'xyz'[plane.axis]} = ${plane.origin[plane.axis].toFixed(1)} mm`;
+    const at = plane.axis === undefined ? '' : `, ${'xyz'[plane.axis]} = ${(Math.round(10 * plane.origin[plane.axis]) / 10 + 0).toFixed(1)} mm`;
     fill(one.caption, `${plane.title}${at}`);
     const shown = [one.before && 'dashed before', one.after && 'solid after'].filter(Boolean).join(', ');
     one.canvas.setAttribute('aria-label', `${plane.title} slice${at}: contours ${shown}`);

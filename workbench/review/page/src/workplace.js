@@ -128,15 +128,16 @@ export class Workplace {
     byId('legend').hidden = !on;
     byId('legend-text').textContent = '';
     if (!on) {
-      if (this.shown?.difference.added.length && ['after', 'dissolve', 'side'].includes(this.mode)) byId('legend-text').textContent = 'Blue: new after the edit. Orange: gone or replaced.';
+      if (this.shown?.difference.added.length && ['after', 'before', 'dissolve', 'side'].includes(this.mode)) byId('legend-text').textContent = 'Blue: new after the edit. Orange: gone or replaced.';
       return;
     }
     const { max, measure } = this.edit.deviation;
-    const ticks = [1, 0.75, 0.5, 0.25, 0].map((share) => make('span', {}, `${figure(max * share, 2)}${share === 1 ? ' mm' : ''}`));
+    const digits = max >= 10 ? 1 : max >= 0.1 ? 2 : 4;
+    const ticks = [1, 0.75, 0.5, 0.25, 0].map((share) => make('span', {}, `${(max * share).toFixed(digits)}${share === 1 ? ' mm' : ''}`));
     fill(byId('legend-ticks'), ...ticks);
     byId('legend').setAttribute('aria-label', `Scale from 0 to ${figure(max, 3)} mm`);
     const ghost = this.stage?.sides.before.model?.extra.ghost;
-    fill(byId('legend-text'), 'Colour: ', foreign(measure || 'deviation', { limit: 100 }), `, 0 to ${figure(max, 3)} mm.`, ghost ? ' Translucent orange: what was there before.' : '');
+    fill(byId('legend-text'), 'Colour: ', foreign(measure || 'deviation', { limit: 100 }), `, 0 to ${figure(max, 3)} mm.`, ghost ? ' Translucent grey: what was there before.' : '');
   }
 
   blink() {

@@ -92,7 +92,7 @@ describe('the page for everyone', { skip: missing, timeout: 240000 }, () => {
       if (name && !seen.includes(name)) seen.push(name);
       if (name) assert.notEqual(ring, 'none', `no ring on ${name}`);
     }
-    const order = ['finish', 'save', 'load', 'print-button', 'theme', 'help-button', 'queue-tab', 'edits-tab', 'list', 'modes', 'canvas', 'tools', 'slices', 'verdict', 'comment'];
+    const order = ['save', 'finish', 'load', 'print-button', 'theme', 'help-button', 'queue-tab', 'edits-tab', 'list', 'modes', 'canvas', 'tools', 'slices', 'verdict', 'comment'];
     const places = order.map((id) => seen.indexOf(id));
     assert.ok(places.every((place) => place >= 0), `not reached: ${order.filter((_, i) => places[i] < 0)}`);
     assert.deepEqual(places, [...places].sort((a, b) => a - b));
