@@ -156,6 +156,8 @@ export class Stage {
     const [name, left, width] = this.pictures().find(([, from, share]) => x >= from && x <= from + share) ?? this.pictures()[0];
     const model = this.sides[name].model;
     if (!model) return null;
+    this.view.setAspect((width * this.canvas.clientWidth) / this.canvas.clientHeight);
+    this.view.camera.updateMatrixWorld();  // the camera may have turned since the last frame
     const caster = new Raycaster();
     caster.setFromCamera(new Vector2(((x - left) / width) * 2 - 1, 1 - 2 * y), this.view.camera);
     const visible = model.patches.visible;

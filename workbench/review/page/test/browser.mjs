@@ -48,4 +48,10 @@ export const shown = (page) => page.waitForFunction(() => performance.getEntries
 export const text = (page, selector) => page.$eval(selector, (element) => element.innerText);
 export const focused = (page) => page.evaluate(() => document.activeElement?.id || document.activeElement?.className || document.activeElement?.tagName);
 /** Waits until the page has said something that a pattern matches. */
-export const said = (page, pattern) => page.waitForFunction((source) => new RegExp(source).test(document.getElementById('say').textContent), { timeout: 20000 }, pattern.source);
+export async function said(page, pattern) {
+  try {
+    await page.waitForFunction((source) => new RegExp(source).test(document.getElementById('say').textContent), { timeout: 10000, polling: 50 }, pattern.source);
+  } catch {
+    throw new Error(`${pattern} was not said, but “${await text(page, '#say')}”, focus on ${await focused(page)}`);
+  }
+}
