@@ -172,12 +172,14 @@ Json source_json(const Session& session, const std::vector<LogEntry>& log) {
     for (const LogEntry& entry : log) {
         const std::vector<SourceFile> files = session.project().sources(entry.edit.edit);
         if (files.empty()) continue;
-        Json source = {{"file", files.front().name}};
+        Json source = {{"file", files.front().name}, {"kind", "surface"}};
         const Json report =
             entry.result ? Json::parse(entry.result->report, nullptr, false) : Json();
         if (!report.is_object()) return source;
-        if (report.contains("format")) source["kind"] = report["format"];
-        if (report.contains("spacing_mm")) source["spacing"] = report["spacing_mm"];
+        if (report.contains("spacing_mm")) {
+            source["kind"] = "image";
+            source["spacing"] = report["spacing_mm"];
+        }
         if (report.contains("size_voxels")) source["size"] = report["size_voxels"];
         return source;
     }

@@ -1,0 +1,36 @@
+/** Colours that hold for readers with any colour vision: hues after Okabe and Ito, one ramp of falling lightness. */
+
+/** Before is orange and dashed, after is blue and solid, wherever both are shown. */
+export const BEFORE = 0xd55e00;
+export const AFTER = 0x0072b2;
+
+/** What was there before, beside a deviation map: a grey, as the map's own colours are taken. */
+export const GHOST = 0x7c8796;
+
+const WALL = 0xe3b3a2;
+const OUTLETS = [0xe69f00, 0x009e73, 0xcc79a7, 0x56b4e9, 0xf0e442, 0xd55e00];
+const hex = (colour) => `#${colour.toString(16).padStart(6, '0')}`;
+
+/** @param {{name, kind}[]} patches @returns {number[]} a colour for each */
+export function patchColours(patches) {
+  let outlets = 0;
+  return patches.map(({ kind }) => {
+    if (kind === 'wall') return WALL;
+    if (kind === 'inlet') return AFTER;
+    if (kind === 'outlet') return OUTLETS[outlets++ % OUTLETS.length];
+    return kind === 'cap' ? 0x8c8c94 : 0xb9a5d6;
+  });
+}
+
+const RAMP = [[246, 243, 236], [252, 214, 132], [244, 157, 62], [214, 92, 36], [150, 38, 36], [78, 10, 34]];
+
+/** Colour of a share in [0, 1] of the largest deviation, from pale to dark. @returns {number[]} red, green, blue in [0, 255] */
+export function rampColour(share) {
+  const x = Math.min(1, Math.max(0, share)) * (RAMP.length - 1);
+  const i = Math.min(RAMP.length - 2, Math.floor(x));
+  return RAMP[i].map((low, k) => low + (x - i) * (RAMP[i + 1][k] - low));
+}
+
+export const css = hex;
+/** CSS gradient of the ramp, upwards. */
+export const rampGradient = () => `linear-gradient(to top, ${RAMP.map((c) => `rgb(${c.join(' ')})`).join(', ')})`;
