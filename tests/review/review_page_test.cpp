@@ -6,8 +6,9 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "geometry/kernel/errors.h"
 #include "tests/review/reviewed_session.h"
-#include "tests/session/test_operations.h"
+#include "tests/session/small_operations.h"
 #include "workbench/review/page_manifest.h"
 #include "workbench/review/page_queue.h"
 
@@ -35,8 +36,7 @@ SCENARIO("The page's manifest has every edit with its surfaces, arguments and fi
     Session session = opened(reviewed_project());
     const auto log = session.log(kDefaultVariant);
     const PageModels models = page_models(session, log);
-    const Json page =
-        page_manifest(session, kDefaultVariant, log, models, find_test_operation);
+    const Json page = page_manifest(session, kDefaultVariant, log, models, find_test_operation);
     CHECK(page["format"] == "vesselbench-review");
     CHECK(page["project"]["id"] == session.project().id());
     CHECK(page["chain_head"] == session.project().record_head());
@@ -66,9 +66,8 @@ SCENARIO("What deserves a look comes first", "[review]") {
     CHECK(std::ranges::is_sorted(queue, std::ranges::greater{}, &QueueItem::score));
     for (const QueueItem& item : queue) {
         CHECK_FALSE(item.why.empty());
-        CHECK(std::ranges::count(log, item.edit, [](const LogEntry& entry) {
-                  return entry.edit.edit.id;
-              }) == 1);
+        CHECK(std::ranges::count(log, item.edit,
+                                 [](const LogEntry& entry) { return entry.edit.edit.id; }) == 1);
     }
 }
 

@@ -63,8 +63,7 @@ std::string import_words(const std::string& file, const ImportedVerdicts& done) 
 void write_page(Session& session, const ReviewArguments& arguments, const Progress& progress) {
     if (std::filesystem::exists(arguments.page) && session.is_source(arguments.page))
         throw UsageError(bare_name(arguments.page) + " is a file that the case was made from");
-    const std::string variant =
-        variant_meant(arguments.variant, *session.snapshot()->history);
+    const std::string variant = variant_meant(arguments.variant, *session.snapshot()->history);
     const std::string page = review_page(session, variant, find_operation, progress);
     PendingFiles files;
     (void)files.add_text(arguments.page, page);

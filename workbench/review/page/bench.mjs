@@ -12,7 +12,7 @@ const template = join(folder, 'template.html');
 await buildPage(template);
 const sample = makeSample({ h: 0.2, refine: true, pictures: false });
 const address = writePage(folder, 'bench.html', readFileSync(template, 'utf8'), sample);
-const triangles = sample.manifest.edits.find((edit) => edit.id === 'e1').figures[0].value;
+const triangles = sample.manifest.edits.find((edit) => edit.id === 1).figures[0].value;
 console.log(`triangles of the model: ${triangles}; stored once: ${sample.manifest.chunks.reduce((sum, chunk) => sum + chunk.triangles, 0)}`);
 console.log(`template: ${(statSync(template).size / 1e6).toFixed(2)} MB; page: ${(statSync(fileURLToPath(address)).size / 1e6).toFixed(2)} MB`);
 const page = await openPage(browser, address);

@@ -50,7 +50,7 @@ function readDeviation(deviation) {
 function readEdit(edit, states) {
   const state = (value) => (Number.isInteger(value) && value >= 0 && value < states ? value : null);
   return {
-    id: text(edit.id), revision: edit.revision, hash: text(edit.hash), step: text(edit.step),
+    id: count(edit.id), revision: edit.revision, hash: text(edit.hash), step: text(edit.step),
     stepTitle: text(edit.step_title) || text(edit.step), operation: text(edit.operation),
     title: text(edit.title) || text(edit.operation), author: text(edit.author), time: text(edit.time),
     status: text(edit.status) || 'applied', note: text(edit.note),
@@ -67,7 +67,7 @@ function readEdit(edit, states) {
   };
 }
 
-const readQueued = (item) => ({ kind: text(item.kind), edit: text(item.edit), title: text(item.title), why: text(item.why),
+const readQueued = (item) => ({ kind: text(item.kind), edit: count(item.edit), title: text(item.title), why: text(item.why),
                                 place: numbers(item.place, 3), radius: number(item.radius) });
 
 function readProject(project) {

@@ -154,7 +154,7 @@ function readMarks(marks, fields, what) {
 }
 
 function readEntry(entry) {
-  check(isObject(entry) && isText(entry.edit, 200) && isText(entry.hash, 200), 'an entry without its edit');
+  check(isObject(entry) && Number.isSafeInteger(entry.edit) && isText(entry.hash, 200), 'an entry without its edit');
   check(VERDICTS.includes(entry.verdict) && isText(entry.comment) && isText(entry.time, 40), 'an entry without its verdict');
   check(entry.verdict !== 'reject' || entry.comment.trim(), 'a rejection without a reason');
   return { edit: entry.edit, revision: entry.revision, hash: entry.hash, verdict: entry.verdict, comment: entry.comment, time: entry.time,

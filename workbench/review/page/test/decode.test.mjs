@@ -119,5 +119,5 @@ test('foreign manifests are refused in words', () => {
   assert.throws(() => readManifest('{"format": "x"}'), /holds no review/);
   assert.throws(() => readManifest('{"format": "vesselbench-review", "version": 2}'), /version 2/);
   const odd = readManifest(JSON.stringify({ format: 'vesselbench-review', version: 1, edits: [{ id: 7, place: [1, 'x', 2], before: 3, thumbnail: 'https://x/y.png', warnings: [null] }] }));
-  assert.deepEqual([odd.edits[0].id, odd.edits[0].place, odd.edits[0].before, odd.edits[0].thumbnail], ['7', null, null, '']);
+  assert.deepEqual([odd.edits[0].id, odd.edits[0].place, odd.edits[0].before, odd.edits[0].thumbnail], [7, null, null, '']);
 });

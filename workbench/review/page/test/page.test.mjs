@@ -79,10 +79,10 @@ describe('the page in a browser', { skip: missing, timeout: 240000 }, () => {
     for (let i = 0; i < 100 && !existsSync(path); ++i) await new Promise((resolve) => setTimeout(resolve, 50));
     const file = JSON.parse(readFileSync(path, 'utf8'));
     const edit = (id) => sample.manifest.edits.find((one) => one.id === id);
-    assert.deepEqual(file.edits.map((one) => [one.edit, one.verdict]).sort(), [['e12', 'accept'], ['e5', 'reject'], ['e6', 'unsure']]);
-    const rejected = file.edits.find((one) => one.edit === 'e5');
+    assert.deepEqual(file.edits.map((one) => [one.edit, one.verdict]).sort(), [[12, 'accept'], [5, 'reject'], [6, 'unsure']]);
+    const rejected = file.edits.find((one) => one.edit === 5);
     assert.equal(rejected.comment, 'The dome was round in the scan. <b>');
-    assert.deepEqual([rejected.revision, rejected.hash], [edit('e5').revision, edit('e5').hash]);
+    assert.deepEqual([rejected.revision, rejected.hash], [edit(5).revision, edit(5).hash]);
     assert.equal(rejected.pins.length, 1);
     assert.ok(rejected.distances[0].mm > 0.05 && rejected.distances[0].mm < 6);
     assert.deepEqual([file.format, file.version, file.chain_head, file.project.id], ['vesselbench-verdicts', 1, sample.manifest.chain_head, 'p-7f3a']);

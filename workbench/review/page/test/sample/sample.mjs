@@ -142,7 +142,7 @@ export function makeSample({ seed = 7, h = 0.42, slices = false, pictures = true
 function finished(edit, k, own, mesh, slices) {
   const { run, reference, step, ...rest } = edit;
   const figures = edit.figures.map((f) => (f.name === 'triangles' ? { ...f, value: mesh.triangles.length } : f));
-  return { id: `e${k + 1}`, revision: k === 5 ? 2 : 1, hash: createHash('sha256').update(`${k} ${edit.title}`).digest('hex'), step,
+  return { id: k + 1, revision: k === 5 ? 2 : 1, hash: createHash('sha256').update(`${k} ${edit.title}`).digest('hex'), step,
            step_title: STEPS[step], author: k < 9 ? 'M. Operator' : 'S. Second', time: `2026-03-0${1 + (k > 5)}T1${k % 10}:2${k % 6}:00Z`,
            status: 'applied', note: '', decided: [], slices, ...rest, ...own, figures,
            verdicts: k === 5 ? [{ reviewer: 'Dr A. Former', time: '2026-03-01T18:00:00Z', verdict: 'reject', comment: 'This is a real stenosis.', revision: 1, outdated: true }] : [] };
@@ -155,7 +155,7 @@ function manifestOf(packer, edits, slices) {
                source: { file: 'case7.nrrd', kind: 'image', spacing: [0.35, 0.35, 0.4], size: [256, 256, 180] } },
     holds: ['surface', 'contours', ...(slices ? ['image slices'] : [])],
     pool: { box: packer.box, bits: 16 }, chunks: packer.chunks, states: packer.states, neighbours: [], edits,
-    queue: QUEUE.map(([k, kind, title, why], i) => ({ kind, edit: `e${k + 1}`, title, why, score: 1 - i / 10, place: edits[k].place, radius: edits[k].radius })),
+    queue: QUEUE.map(([k, kind, title, why], i) => ({ kind, edit: k + 1, title, why, score: 1 - i / 10, place: edits[k].place, radius: edits[k].radius })),
     report: [value('wall area', 402.7, 'mm²'), value('volume', 601.9, 'mm³'), value('openings', 3)],
   };
 }
