@@ -56,7 +56,7 @@ const std::map<std::string, Names> kDoors = {
     {"workbench/report",
      {"geometry/kernel", "smoothing/quality", "gpu", "workbench/case", "workbench/session"}},
     {"workbench/review",
-     {"geometry/kernel", "workbench/case", "workbench/project", "workbench/worker",
+     {"geometry/kernel", "gpu", "workbench/case", "workbench/project", "workbench/worker",
       "workbench/session", "workbench/report"}},
     {"workbench/prepare",
      {"geometry", "meshing/products", "workbench/case", "workbench/session", "workbench/operations",

@@ -8,6 +8,7 @@
 #include "geometry/kernel/wording.h"
 #include "workbench/case/argument_texts.h"
 #include "workbench/case/purposes.h"
+#include "workbench/report/base64.h"
 #include "workbench/report/rendered_template.h"
 #include "workbench/report/report_template.h"
 
@@ -104,21 +105,6 @@ Json tiles(const Json& report) {
     if (!inlets.empty()) add("Reynolds number", shown(part_of(inlets[0], "reynolds")));
     add("warnings", std::to_string(part_of(report, "warnings").size()));
     return tiles;
-}
-
-std::string base64(const std::string& bytes) {
-    static const char* letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    text.reserve(bytes.size() * 4 / 3 + 4);
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        unsigned group = 0;
-        for (std::size_t k = 0; k < 3; ++k)
-            group =
-                group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-        for (std::size_t k = 0; k < 4; ++k)
-            text += i + k <= bytes.size() ? letters[group >> (18 - 6 * k) & 63u] : '=';
-    }
-    return text;
 }
 
 Json gallery(std::span<const ReportPicture> pictures) {

@@ -1,9 +1,9 @@
 #include "workbench/review/page_bytes.h"
 
-#include <openssl/evp.h>
 #include <zlib.h>
 
 #include "geometry/kernel/errors.h"
+#include "workbench/report/base64.h"
 
 namespace vesselbench {
 
@@ -57,13 +57,7 @@ void append_number(std::string& bytes, std::uint32_t number) {
 }
 
 std::string packed_text(const std::string& bytes) {
-    const std::string packed = deflated(bytes);
-    std::string text(4 * ((packed.size() + 2) / 3) + 1, '\0');
-    const int length = EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()),
-                                       reinterpret_cast<const unsigned char*>(packed.data()),
-                                       static_cast<int>(packed.size()));
-    text.resize(static_cast<std::size_t>(length));
-    return text;
+    return base64(deflated(bytes));
 }
 
 }  // namespace vesselbench

@@ -13,6 +13,7 @@
 #include "workbench/case/version.h"
 #include "workbench/project/project.h"
 #include "workbench/project/utc_time.h"
+#include "workbench/report/base64.h"
 #include "workbench/report/log_json.h"
 #include "workbench/review/page_queue.h"
 #include "workbench/review/review.h"
@@ -23,8 +24,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Longer values, as the dabs of a stroke, are counted.
-constexpr std::size_t kLongestValue = 200;
+constexpr std::size_t kMostNumbers = 12;  ///< longer lists are counted
 
 const Operation* known(const OperationLookup& find, const std::string& name) {
     try {
@@ -38,30 +38,69 @@ Json point(const Vec3& p) {
     return {p.x(), p.y(), p.z()};
 }
 
+/// With as many digits as people read.
+struct ShownValue {
+    std::string operator()(double number) const { return formatted(number); }
+
+    std::string operator()(const Vec3& p) const {
+        return formatted(p.x()) + ", " + formatted(p.y()) + ", " + formatted(p.z());
+    }
+
+    std::string operator()(const std::vector<double>& list) const {
+        std::vector<std::string> texts;
+        for (const double number : list) texts.push_back(formatted(number));
+        return texts.size() <= kMostNumbers ? joined(texts) : counted(texts.size(), "number");
+    }
+
+    std::string operator()(const Records& records) const {
+        return counted(records.list().size(), "record");
+    }
+
+    template <class Other>
+    std::string operator()(const Other& other) const {
+        return to_text(Value(other));
+    }
+};
+
 std::string shown(const Value& value) {
-    if (const auto* records = std::get_if<Records>(&value))
-        return counted(records->list().size(), "record");
-    const std::string text = to_text(value);
-    return text.size() <= kLongestValue ? text
-                                        : text.substr(0, text.find(',', kLongestValue)) + "...";
+    return std::visit(ShownValue{}, value);
+}
+
+/// Null: of another version.
+const Parameter* parameter_named(const Operation* operation, const std::string& name) {
+    if (operation == nullptr) return nullptr;
+    const auto found = std::ranges::find(operation->parameters, name, &Parameter::name);
+    return found == operation->parameters.end() ? nullptr : &*found;
 }
 
 std::string unit_of(const Operation* operation, const std::string& name) {
-    if (operation == nullptr) return "";
-    const auto parameter = std::ranges::find(operation->parameters, name, &Parameter::name);
-    return parameter == operation->parameters.end() || parameter->unit == "-" ? ""
-                                                                              : parameter->unit;
+    const Parameter* parameter = parameter_named(operation, name);
+    return parameter == nullptr || parameter->unit == "-" ? "" : parameter->unit;
 }
 
-Json arguments_json(const Operation* operation, const Arguments& arguments,
-                    const Arguments& without, bool automatic) {
+Json row_of(const Operation* operation, const std::string& name, const Value& value,
+            bool automatic) {
+    return {{"name", readable(name)},
+            {"value", shown(value)},
+            {"unit", unit_of(operation, name)},
+            {"automatic", automatic}};
+}
+
+Json given_json(const Operation* operation, const Arguments& given) {
     Json rows = Json::array();
-    for (const auto& [name, value] : arguments.values())
-        if (!without.has(name))
-            rows.push_back({{"name", readable(name)},
-                            {"value", shown(value)},
-                            {"unit", unit_of(operation, name)},
-                            {"automatic", automatic}});
+    for (const auto& [name, value] : given.values())
+        rows.push_back(row_of(operation, name, value, false));
+    return rows;
+}
+
+/// What the operation chose: neither given nor a default.
+Json decided_json(const Operation* operation, const Arguments& resolved, const Arguments& given) {
+    Json rows = Json::array();
+    for (const auto& [name, value] : resolved.values()) {
+        const Parameter* parameter = parameter_named(operation, name);
+        const bool is_default = parameter != nullptr && parameter->default_value == value;
+        if (!given.has(name) && !is_default) rows.push_back(row_of(operation, name, value, true));
+    }
     return rows;
 }
 
@@ -111,6 +150,8 @@ std::string status_word(EditStatus status) {
 void add_model(const PageEditModel& model, Json& edit) {
     if (model.before) edit["before"] = *model.before;
     if (model.after) edit["after"] = *model.after;
+    if (!model.thumbnail.empty())
+        edit["thumbnail"] = "data:image/png;base64," + base64(model.thumbnail);
     if (!model.deviation.is_null()) edit["deviation"] = model.deviation;
     if (model.place) {
         edit["place"] = point(*model.place);
@@ -136,11 +177,11 @@ Json edit_json(const LogEntry& entry, const ReviewedEdit* reviewed, const PageMo
                  {"time", edit.time},
                  {"status", status_word(entry.status)},
                  {"note", edit.note},
-                 {"arguments", arguments_json(operation, edit.given, {}, false)},
+                 {"arguments", given_json(operation, edit.given)},
                  {"before", nullptr},
                  {"after", nullptr}};
     if (entry.result) {
-        json["decided"] = arguments_json(operation, entry.result->resolved, edit.given, true);
+        json["decided"] = decided_json(operation, entry.result->resolved, edit.given);
         json["figures"] = figures_json(*entry.result);
         json["warnings"] = warnings_json(*entry.result);
     } else if (!entry.reason.empty()) {

@@ -6,6 +6,7 @@
 
 #include "geometry/kernel/surface_distance.h"
 #include "geometry/kernel/vertex_normals.h"
+#include "workbench/review/page_thumbnail.h"
 
 namespace vesselbench {
 
@@ -68,6 +69,11 @@ std::optional<double> radius_near(const Surface& surface, const Vec3& place) {
     return radius_at(distance, wall.point, outward.normalized());
 }
 
+/// What was added is in another colour; seen from where most has changed.
+void draw_thumbnail(const Surface& surface, std::span<const double> gained, PageEditModel& model) {
+    model.thumbnail = thumbnail_png(surface, gained, model.outward);
+}
+
 /// What was added is seen on the surface after the edit, what was lost on the one before it.
 void add_difference(PageGeometry& geometry, const ShownSurface& before, const ShownSurface& after,
                     PageEditModel& model) {
@@ -75,13 +81,14 @@ void add_difference(PageGeometry& geometry, const ShownSurface& before, const Sh
     Positions moved;
     add_moved(after.surface, gained, moved);
     add_moved(before.surface, lost, moved);
-    if (moved.empty()) return;
+    if (moved.empty()) return draw_thumbnail(after.surface, {}, model);
     model.changed = bounds(moved);
     model.deviation = geometry.add_values(after.state, gained);
     model.deviation["measure"] = "distance from the surface before the edit";
     take_largest(after.surface, gained, model);
     take_largest(before.surface, lost, model);
     if (model.place) model.radius = radius_near(before.surface, *model.place);
+    draw_thumbnail(after.surface, gained, model);
 }
 
 /// Edits that have a surface, with it, in order.
@@ -131,7 +138,10 @@ PageModels page_models(Session& session, const std::vector<LogEntry>& log, Progr
         ShownSurface after{edit.surface, models.geometry.add(edit.surface)};
         if (before) model.before = before->state.number;
         model.after = after.state.number;
-        if (before) add_difference(models.geometry, *before, after, model);
+        if (before)
+            add_difference(models.geometry, *before, after, model);
+        else
+            draw_thumbnail(after.surface, {}, model);
         before = std::move(after);
     }
     for (const auto& [name, surface] : neighbours)

@@ -20,6 +20,7 @@ struct PageEditModel {
     Vec3 outward = Vec3::Zero();               ///< unit normal of the surface there
     std::optional<double> radius;              ///< of the vessel there, before the edit [mm]
     std::optional<Bounds> changed;             ///< box of what moved or is new [mm]
+    std::string thumbnail;                     ///< a PNG file's bytes; empty: none
 };
 
 /// The surfaces of a variant's edits as far as they have run.

@@ -16,6 +16,7 @@ namespace {
 /// as a warning; a decision without a doubt can wait.
 constexpr double kStale = 100.0, kWarning = 10.0, kPlacedWarning = 12.0, kDecision = 1.0;
 constexpr double kPerRadius = 10.0;
+constexpr double kMostShare = 5.0;  ///< of a radius: larger changes are as urgent
 /// A change smaller than this share of the radius is not listed by itself.
 constexpr double kLeastShare = 0.05;
 /// Of a change that the operation is for: cuts and extensions of ends, cut branches. Their size
@@ -36,10 +37,11 @@ bool is_meant_to_move_much(const LogEntry& entry) {
     return step == Step::Openings || step == Step::Product || step == Step::Source;
 }
 
-QueueItem item_of(const char* kind, const LogEntry& entry, double score, std::string why) {
+QueueItem item_of(const char* kind, const LogEntry& entry, double score, std::string title,
+                  std::string why) {
     return {.kind = kind,
             .edit = entry.edit.edit.id,
-            .title = readable(entry.edit.operation),
+            .title = std::move(title),
             .why = std::move(why),
             .score = score,
             .place = {},
@@ -48,8 +50,8 @@ QueueItem item_of(const char* kind, const LogEntry& entry, double score, std::st
 
 void add_stale(const LogEntry& entry, std::vector<QueueItem>& queue) {
     if (entry.status != EditStatus::Stale) return;
-    queue.push_back(
-        item_of("stale", entry, kStale, "It no longer applies and was skipped: " + entry.reason));
+    queue.push_back(item_of("stale", entry, kStale, "No longer applies",
+                            "It no longer applies and was skipped: " + entry.reason));
 }
 
 void add_deviation(const LogEntry& entry, const PageModels& models, std::vector<QueueItem>& queue) {
@@ -62,21 +64,27 @@ void add_deviation(const LogEntry& entry, const PageModels& models, std::vector<
     const double meant = is_meant_to_move_much(entry) ? kMeantShare : 1.0;
     std::string why = "The surface differs by up to " + formatted(model.largest, "%.3g mm");
     if (radius > 0.0) why += ", where the vessel's radius is " + formatted(radius, "%.3g mm");
-    QueueItem item = item_of("deviation", entry, kPerRadius * meant * std::min(share, 5.0), why);
+    QueueItem item = item_of("deviation", entry, kPerRadius * meant * std::min(share, kMostShare),
+                             "Differs by up to " + formatted(model.largest, "%.3g mm"), why);
     item.place = model.place;
     item.radius = model.radius;
     queue.push_back(std::move(item));
 }
 
+/// All of an edit are one item: they are read together.
 void add_warnings(const LogEntry& entry, std::vector<QueueItem>& queue) {
-    if (!entry.result) return;
+    if (!entry.result || entry.result->warnings.empty()) return;
+    std::vector<std::string> texts;
+    std::optional<Vec3> place;
     for (const Diagnostic& warning : entry.result->warnings) {
-        const bool placed = warning.place.has_value();
-        QueueItem item = item_of("warning", entry, placed ? kPlacedWarning : kWarning,
-                                 readable_sentence(worded(warning, {.window = true})));
-        item.place = warning.place;
-        queue.push_back(std::move(item));
+        texts.push_back(readable_sentence(worded(warning, {.window = true})));
+        if (!place) place = warning.place;
     }
+    const std::string title = texts.size() == 1 ? texts.front() : counted(texts.size(), "warning");
+    QueueItem item =
+        item_of("warning", entry, place ? kPlacedWarning : kWarning, title, joined(texts, "; "));
+    item.place = place;
+    queue.push_back(std::move(item));
 }
 
 void add_decisions(const LogEntry& entry, const Operation* operation,
@@ -88,8 +96,8 @@ void add_decisions(const LogEntry& entry, const Operation* operation,
             !entry.edit.given.has(parameter.name))
             names.push_back(readable(parameter.name));
     if (names.empty()) return;
-    queue.push_back(
-        item_of("decision", entry, kDecision, "The program decided by itself: " + joined(names)));
+    queue.push_back(item_of("decision", entry, kDecision, joined(names),
+                            "The program decided by itself: " + joined(names)));
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace vesselbench {
 struct QueueItem {
     std::string kind;  ///< "deviation", "warning", "stale" or "decision"
     EditId edit = 0;
-    std::string title, why;
+    std::string title, why;        ///< in few words, and in all
     double score = 0.0;            ///< larger: earlier
     std::optional<Vec3> place;     ///< [mm]
     std::optional<double> radius;  ///< of the vessel there [mm]
