@@ -36,7 +36,8 @@ SCENARIO("The page's manifest has every edit with its surfaces, arguments and fi
     Session session = opened(reviewed_project());
     const auto log = session.log(kDefaultVariant);
     const PageModels models = page_models(session, log);
-    const Json page = page_manifest(session, kDefaultVariant, log, models, find_test_operation);
+    const Json page = page_manifest(session, kDefaultVariant, log, models, PageImages::Contours,
+                                    find_test_operation);
     CHECK(page["format"] == "vesselbench-review");
     CHECK(page["project"]["id"] == session.project().id());
     CHECK(page["chain_head"] == session.project().record_head());

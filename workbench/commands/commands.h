@@ -253,6 +253,7 @@ struct ReviewArguments {
     std::string project;
     std::vector<std::string> imported;  ///< files of verdicts
     std::string page;                   ///< to be written for reviewers; empty: none
+    std::string images = "contours";    ///< of the page: off, contours or slices
     std::string variant;                ///< of the page; empty: the only one, or the usual one
     bool json = false;
 };

@@ -153,6 +153,11 @@ void add_review(CommandLine& line) {
         .add_option("--out", options->page,
                     "Write one self-contained page with the variant's edits, for any browser")
         ->type_name("PAGE.html");
+    command
+        .add_option("--images", options->images,
+                    "What the page shows through each edit's place: off; contours of the surfaces; "
+                    "slices of the image as well")
+        ->check(CLI::IsMember({"off", "contours", "slices"}));
     add_variant(command, options->variant, "Variant of the page: cfd, rp or a name");
     add_json(command, options->json);
 }

@@ -59,12 +59,18 @@ std::string import_words(const std::string& file, const ImportedVerdicts& done) 
                 : "");
 }
 
+PageImages images_of(const std::string& word) {
+    if (word == "off") return PageImages::None;
+    return word == "slices" ? PageImages::Slices : PageImages::Contours;
+}
+
 /// Written beside its place and renamed, as all results are.
 void write_page(Session& session, const ReviewArguments& arguments, const Progress& progress) {
     if (std::filesystem::exists(arguments.page) && session.is_source(arguments.page))
         throw UsageError(bare_name(arguments.page) + " is a file that the case was made from");
     const std::string variant = variant_meant(arguments.variant, *session.snapshot()->history);
-    const std::string page = review_page(session, variant, find_operation, progress);
+    const std::string page =
+        review_page(session, variant, find_operation, images_of(arguments.images), progress);
     PendingFiles files;
     (void)files.add_text(arguments.page, page);
     files.commit();

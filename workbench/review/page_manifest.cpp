@@ -150,6 +150,7 @@ std::string status_word(EditStatus status) {
 void add_model(const PageEditModel& model, Json& edit) {
     if (model.before) edit["before"] = *model.before;
     if (model.after) edit["after"] = *model.after;
+    if (!model.slices.empty()) edit["slices"] = model.slices;
     if (!model.thumbnail.empty())
         edit["thumbnail"] = "data:image/png;base64," + base64(model.thumbnail);
     if (!model.deviation.is_null()) edit["deviation"] = model.deviation;
@@ -238,10 +239,19 @@ Json report_json(const std::vector<LogEntry>& log) {
     return Json::array();
 }
 
+/// What the page says that it holds.
+Json held(const PageModels& models, PageImages images) {
+    Json words = {"surface"};
+    if (images != PageImages::None) words.push_back("contours");
+    if (!models.slices.empty()) words.push_back("image slices");
+    if (!models.neighbours.empty()) words.push_back("neighbours");
+    return words;
+}
+
 }  // namespace
 
 Json page_manifest(const Session& session, const std::string& variant,
-                   const std::vector<LogEntry>& log, const PageModels& models,
+                   const std::vector<LogEntry>& log, const PageModels& models, PageImages images,
                    const OperationLookup& find) {
     const Review review = review_of(session, variant);
     Json edits = Json::array(), neighbours = Json::array();
@@ -264,7 +274,7 @@ Json page_manifest(const Session& session, const std::string& variant,
                        {"units", "mm"},
                        {"source", source_json(session, log)},
                        {"variant", variant}}},
-                     {"holds", {"surfaces after every edit", "their contours"}}};
+                     {"holds", held(models, images)}};
     manifest.update(models.geometry.json());
     manifest["neighbours"] = neighbours;
     manifest["edits"] = edits;

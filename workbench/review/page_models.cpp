@@ -6,6 +6,7 @@
 
 #include "geometry/kernel/surface_distance.h"
 #include "geometry/kernel/vertex_normals.h"
+#include "workbench/review/page_slices.h"
 #include "workbench/review/page_thumbnail.h"
 
 namespace vesselbench {
@@ -97,8 +98,8 @@ struct ShownEdit {
     Surface surface;
 };
 
-std::vector<ShownEdit> surfaces_of(Session& session, const std::vector<LogEntry>& log,
-                                   std::map<std::string, Surface>& neighbours,
+/// \param last receives what later edits leave as it is: neighbours and image
+std::vector<ShownEdit> surfaces_of(Session& session, const std::vector<LogEntry>& log, Scene& last,
                                    const Progress& progress) {
     std::vector<ShownEdit> shown;
     for (const LogEntry& entry : log) {
@@ -106,7 +107,7 @@ std::vector<ShownEdit> surfaces_of(Session& session, const std::vector<LogEntry>
         const Scene scene = session.result_scene(entry.result->id, progress);
         if (scene.surface && !scene.surface->empty())
             shown.push_back({entry.edit.edit.id, *scene.surface});
-        neighbours = scene.neighbours;
+        last = scene;
     }
     return shown;
 }
@@ -124,11 +125,26 @@ Bounds box_of(const std::vector<ShownEdit>& shown,
     return bounds(corners);
 }
 
+/// A slice shows the vessel with its surroundings.
+constexpr double kSliceRadii = 6.0, kLeastSlice = 15.0;  ///< to every side: in radii, at least [mm]
+
+void add_slices(const Image& image, PageModels& models) {
+    PageSlices slices(image);
+    for (auto& [id, model] : models.edits)
+        if (model.place)
+            model.slices =
+                slices.add(std::to_string(id), *model.place,
+                           std::max(kSliceRadii * model.radius.value_or(0.0), kLeastSlice));
+    models.slices = slices.blobs();
+}
+
 }  // namespace
 
-PageModels page_models(Session& session, const std::vector<LogEntry>& log, Progress progress) {
-    std::map<std::string, Surface> neighbours;
-    const std::vector<ShownEdit> shown = surfaces_of(session, log, neighbours, progress);
+PageModels page_models(Session& session, const std::vector<LogEntry>& log, PageImages images,
+                       Progress progress) {
+    Scene last;
+    const std::vector<ShownEdit> shown = surfaces_of(session, log, last, progress);
+    const auto& neighbours = last.neighbours;
     PageModels models{
         .geometry = PageGeometry(box_of(shown, neighbours)), .edits = {}, .neighbours = {}};
     std::optional<ShownSurface> before;
@@ -144,6 +160,7 @@ PageModels page_models(Session& session, const std::vector<LogEntry>& log, Progr
             draw_thumbnail(after.surface, {}, model);
         before = std::move(after);
     }
+    if (images == PageImages::Slices && last.image) add_slices(*last.image, models);
     for (const auto& [name, surface] : neighbours)
         models.neighbours.emplace_back(name, models.geometry.add(surface).number);
     return models;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -11,6 +12,13 @@
 
 namespace vesselbench {
 
+/// What a page shows of the image.
+enum class PageImages : std::uint8_t {
+    None,      ///< nothing
+    Contours,  ///< nothing; the page cuts the surfaces
+    Slices     ///< parts of three slices through the place of each edit
+};
+
 /// What an edit did to the surface, for the review page.
 struct PageEditModel {
     std::optional<std::size_t> before, after;  ///< states of the page's geometry; none: no surface
@@ -21,6 +29,7 @@ struct PageEditModel {
     std::optional<double> radius;              ///< of the vessel there, before the edit [mm]
     std::optional<Bounds> changed;             ///< box of what moved or is new [mm]
     std::string thumbnail;                     ///< a PNG file's bytes; empty: none
+    nlohmann::ordered_json slices = nlohmann::ordered_json::array();
 };
 
 /// The surfaces of a variant's edits as far as they have run.
@@ -28,10 +37,12 @@ struct PageModels {
     PageGeometry geometry;
     std::map<EditId, PageEditModel> edits;
     std::vector<std::pair<std::string, std::size_t>> neighbours;  ///< name, state
+    std::map<std::string, std::string> slices;                    ///< blobs of the edits' slices
 };
 
 /// \param log of the variant, in order \throw what Session::result_scene() throws
 [[nodiscard]] PageModels page_models(Session& session, const std::vector<LogEntry>& log,
+                                     PageImages images = PageImages::Contours,
                                      Progress progress = {});
 
 }  // namespace vesselbench

@@ -49,16 +49,18 @@ std::string elements_of(const std::string& json, const std::map<std::string, std
 }  // namespace
 
 std::string review_page(Session& session, const std::string& variant, const OperationLookup& find,
-                        const Progress& progress) {
+                        PageImages images, const Progress& progress) {
     const std::span<const unsigned char> bytes = review_page_bytes();
     std::string text(bytes.begin(), bytes.end());
     const std::size_t place = text.find(kMarker);
     if (place == std::string::npos) throw DiagnosedFailure({.code = "no-review-page"});
     const std::vector<LogEntry> log = session.log(variant);
-    const PageModels models = page_models(session, log, progress);
-    const nlohmann::ordered_json manifest = page_manifest(session, variant, log, models, find);
-    text.replace(place, std::string(kMarker).size(),
-                 elements_of(text_from_json(manifest), models.geometry.blobs()));
+    const PageModels models = page_models(session, log, images, progress);
+    const nlohmann::ordered_json manifest =
+        page_manifest(session, variant, log, models, images, find);
+    std::map<std::string, std::string> blobs = models.geometry.blobs();
+    blobs.insert(models.slices.begin(), models.slices.end());
+    text.replace(place, std::string(kMarker).size(), elements_of(text_from_json(manifest), blobs));
     return text;
 }
 

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "workbench/review/page_models.h"
 #include "workbench/session/session.h"
 
 namespace vesselbench {
@@ -10,6 +11,8 @@ namespace vesselbench {
 /// \param find of operations
 /// \throw DiagnosedFailure if the build has no page
 [[nodiscard]] std::string review_page(Session& session, const std::string& variant,
-                                      const OperationLookup& find, const Progress& progress = {});
+                                      const OperationLookup& find,
+                                      PageImages images = PageImages::Contours,
+                                      const Progress& progress = {});
 
 }  // namespace vesselbench

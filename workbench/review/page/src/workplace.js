@@ -17,6 +17,8 @@ export class Workplace {
     Object.assign(this, { manifest, pool, verdicts, say, mode: 'after', shown: null, edit: null, tool: null, start: null, blinking: 0 });
     this.preparer = new Preparer(pool, manifest);
     this.slices = new Slices(byId('slices'), manifest, pool);
+    this.contours = manifest.holds.includes('contours');  // the writer may have left slices and contours out
+    byId('slices-key').hidden = !this.contours;
     this.canvas = byId('canvas');
     this.startStage();
     this.makeModes();
@@ -105,7 +107,7 @@ export class Workplace {
   /** Brings buttons, labels and legend up to date with edit and mode. */
   refresh() {
     const { before, after, difference } = this.shown ?? {};
-    const usable = { after, before, dissolve: before && after, side: before && after, deviation: difference?.deviation, slices: before || after };
+    const usable = { after, before, dissolve: before && after, side: before && after, deviation: difference?.deviation, slices: this.contours && (before || after) };
     this.modeButtons.forEach((button, i) => {
       button.disabled = !usable[MODES[i]];
       button.setAttribute('aria-pressed', String(this.mode === MODES[i]));
@@ -263,7 +265,7 @@ export class Workplace {
       : framing(this.edit, this.shown, this.item?.place ?? this.edit.place, this.item?.radius ?? this.edit.radius);
     this.aim(frame);
     const { before, after } = this.shown;
-    this.slices.show(this.edit, before, after, place ?? this.item?.place ?? this.edit.place ?? frame.centre, frame.radius);
+    if (this.contours) this.slices.show(this.edit, before, after, place ?? this.item?.place ?? this.edit.place ?? frame.centre, frame.radius);
   }
 
   lookWhole() {
