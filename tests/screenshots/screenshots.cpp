@@ -375,6 +375,25 @@ void places(Photographer& p) {
     p.click("operation.back");
 }
 
+void review(Photographer& p) {
+    p.click("rail.review");
+    p.click("review.edit.2");
+    p.fill("review.name", "A. Kern");
+    p.fill("review.role", "radiologist");
+    p.click("review.keep_name");
+    p.fill("review.comment", "the neck is cut too deep");
+    p.click("review.reject");
+    p.wait();
+    p.rest_mouse();
+    p.take("review");
+    p.click("review.correct");
+    p.wait();
+    p.rest_mouse();
+    p.take("review-correct");
+    p.click("operation.back");
+    p.wait();
+}
+
 void history(Photographer& p) {
     for (int i = 0; i < 2; ++i) {
         p.click("tool.undo");
@@ -412,6 +431,7 @@ int run(const std::vector<std::string>& words) {
     looks(photographer);
     forms(photographer);
     places(photographer);
+    review(photographer);
     history(photographer);
     return 0;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "geometry/kernel/wording.h"
 #include "workbench/operations/table.h"
 #include "workbench/review/review_page.h"
 #include "workbench/window/case/edit_places.h"
@@ -47,6 +48,30 @@ void ReviewFeature::choose(EditId edit) {
     const LogEntry* entry = find_entry(*core_.document.snapshot(), edit);
     const Positions places = entry == nullptr ? Positions() : places_of_edit(*entry);
     if (!places.empty()) core_.look_at(places.front());
+}
+
+void ReviewFeature::find_queue() {
+    const auto found = std::make_shared<std::vector<QueueItem>>();
+    const auto find = [found, variant = core_.document.variant()](Session& session,
+                                                                  const Progress& progress) {
+        const std::vector<LogEntry> log = session.log(variant);
+        *found = review_queue(log, page_models(session, log, progress), find_operation);
+        return make_message(MessageKind::Success,
+                            found->empty() ? "Nothing stands out in the edits"
+                                           : counted(found->size(), "thing") + " to look at first");
+    };
+    const auto keep = [this, found, changes = core_.document.snapshot_changes()] {
+        queue_ = *found;
+        queue_changes_ = changes;
+    };
+    core_.document.run({.what = "Looking for what to review first", .kind = RequestKind::Output},
+                       find, keep);
+}
+
+void ReviewFeature::look_at(const QueueItem& item) {
+    if (chosen_ != item.edit) choose(item.edit);
+    if (item.place) core_.look_at(*item.place);
+    reveals_ = true;
 }
 
 void ReviewFeature::correct() {
@@ -126,6 +151,7 @@ void ReviewFeature::keep_who() {
 
 bool ReviewFeature::update() {
     note_answer();
+    if (queue_changes_ != core_.document.snapshot_changes()) queue_.reset();
     const Version now{core_.document.opened(), core_.document.snapshot_changes(), entered_};
     if (is_shown() && read_ != now) {
         read_ = now;
@@ -146,6 +172,7 @@ void ReviewFeature::case_closed() {
     read_.reset();
     chosen_.reset();
     answer_.reset();
+    queue_.reset();
     comment.clear();
 }
 

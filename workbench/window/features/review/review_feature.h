@@ -4,7 +4,10 @@
 #include <optional>
 #include <string>
 #include <tuple>
+#include <utility>
+#include <vector>
 
+#include "workbench/review/page_queue.h"
 #include "workbench/review/review.h"
 #include "workbench/window/core/core.h"
 
@@ -24,6 +27,20 @@ public:
 
     /// True while the step, or the form of the chosen edit, is shown.
     [[nodiscard]] bool is_shown() const;
+
+    // --- what to look at first
+
+    /// The best reason first; none: it was not looked for since the edits have changed.
+    [[nodiscard]] const std::optional<std::vector<QueueItem>>& queue() const { return queue_; }
+
+    /// Looks for it, which reads the model after each edit.
+    void find_queue();
+
+    /// Chooses the item's edit, and looks at its place.
+    void look_at(const QueueItem& item);
+
+    /// True once after look_at(): the list scrolls to the chosen edit.
+    [[nodiscard]] bool take_reveals() { return std::exchange(reveals_, false); }
 
     // --- the edit that is judged
 
@@ -98,6 +115,9 @@ private:
     int entered_ = 0;  ///< counts changes of verdicts
     std::optional<EditId> chosen_;
     std::optional<Answer> answer_;
+    std::optional<std::vector<QueueItem>> queue_;
+    int queue_changes_ = 0;  ///< the document's snapshot changes that it is of
+    bool reveals_ = false;
     bool asks_who_ = false;
 };
 

@@ -60,20 +60,43 @@ void draw_state(PanelContext& c, const Review& review) {
 void draw_files(PanelContext& c) {
     const Document& document = c.core.document;
     ImGui::SetCursorPosX(c.ui.grid(2));
-    const float width = width_of(c, 2);
-    if (button(c.ui, "review.page", "Write page",
+    if (button(c.ui, "review.page", "Write review page",
                {.icon = icons::kExport,
                 .enabled = document.can(RequestKind::Output),
-                .width = width,
-                .help = "Write a review page: one file that reviewers open in a browser"}))
+                .width = width_of(c, 1),
+                .help = "Write one file that reviewers open in a browser"}))
         c.core.ask(FileQuestion::ReviewPage);
-    ImGui::SameLine(0, c.ui.grid(1));
+    ImGui::SetCursorPosX(c.ui.grid(2));
     if (button(c.ui, "review.import", "Import verdicts",
                {.icon = icons::kOpen,
                 .enabled = document.can(RequestKind::History),
-                .width = width,
+                .width = width_of(c, 1),
                 .help = "Enter verdicts that a reviewer saved from the page"}))
         c.core.ask(FileQuestion::Verdicts);
+}
+
+void draw_queue(PanelContext& c, ReviewFeature& feature) {
+    if (!feature.queue()) {
+        ImGui::SetCursorPosX(c.ui.grid(2));
+        if (button(c.ui, "review.find", "What to look at first",
+                   {.icon = icons::kTarget,
+                    .enabled = c.core.document.can(RequestKind::Output),
+                    .width = width_of(c, 1),
+                    .help = "Large changes, warnings, decisions in doubt; reads all models"}))
+            feature.find_queue();
+        return;
+    }
+    space(c.ui, 1);
+    ImGui::SetCursorPosX(c.ui.grid(2));
+    group_heading(c.ui, feature.queue()->empty() ? "Nothing stands out" : "To look at first");
+    for (std::size_t i = 0; i < feature.queue()->size(); ++i) {
+        const QueueItem& item = (*feature.queue())[i];
+        if (row(c.ui, "review.queue." + std::to_string(i),
+                {.title = printable(item.title),
+                 .detail = "Edit " + std::to_string(item.edit) + ": " + printable(item.why),
+                 .help = printable(item.why)}))
+            feature.look_at(item);
+    }
 }
 
 void draw_verdicts(PanelContext& c, const ReviewedEdit& edit) {
@@ -165,7 +188,9 @@ void draw_edit(PanelContext& c, ReviewFeature& feature, const ReviewedEdit& edit
              .help = "Show its place, its verdicts, and judge it"}))
         return feature.choose(id);
     if (ImGui::IsItemHovered()) c.core.point_at_edit(id);
-    if (is_chosen) draw_chosen(c, feature, edit);
+    if (!is_chosen) return;
+    if (feature.take_reveals()) ImGui::SetScrollHereY(0.2F);
+    draw_chosen(c, feature, edit);
 }
 
 void draw_edits(PanelContext& c, ReviewFeature& feature, const Review& review) {
@@ -191,7 +216,9 @@ void draw_review_panel(PanelContext& c) {
     if (!feature.problem().empty()) line(c, feature.problem(), c.ui.theme.danger);
     space(c.ui, 1);
     draw_files(c);
-    if (review) draw_edits(c, feature, *review);
+    if (!review) return;
+    draw_queue(c, feature);
+    draw_edits(c, feature, *review);
 }
 
 }  // namespace vesselbench

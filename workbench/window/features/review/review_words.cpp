@@ -7,21 +7,21 @@ namespace vesselbench {
 
 namespace {
 
-constexpr std::size_t kLongestLine = 120;  ///< [bytes]
+constexpr std::size_t kLongestLine = 120, kLongestPin = 60;  ///< [bytes]
 
-std::string line_of(const std::string& reviewer, const std::string& text) {
-    return printable(shortened(reviewer + ": " + text, kLongestLine));
+std::string line_of(const std::string& reviewer, const std::string& text, std::size_t most) {
+    return printable(shortened(reviewer + ": " + text, most));
 }
 
 std::string remark_of(const GivenVerdict& given) {
-    return line_of(given.reviewer,
-                   given.comment.empty() ? to_string(given.verdict) : given.comment);
+    const std::string text = given.comment.empty() ? to_string(given.verdict) : given.comment;
+    return line_of(given.reviewer, text, kLongestLine);
 }
 
 }  // namespace
 
 std::string pin_words(const GivenPin& pin) {
-    return line_of(pin.reviewer, pin.pin.text.empty() ? "pin" : pin.pin.text) +
+    return line_of(pin.reviewer, pin.pin.text.empty() ? "pin" : pin.pin.text, kLongestPin) +
            (pin.outdated ? " (outdated)" : "");
 }
 
