@@ -376,12 +376,14 @@ void places(Photographer& p) {
 }
 
 void review(Photographer& p) {
+    p.scroll("rail.smoothing", -30);
     p.click("rail.review");
-    p.click("review.edit.2");
+    p.wait();
+    p.click("review.edit.4");
     p.fill("review.name", "A. Kern");
     p.fill("review.role", "radiologist");
     p.click("review.keep_name");
-    p.fill("review.comment", "the neck is cut too deep");
+    p.fill("review.comment", "a hole is left");
     p.click("review.reject");
     p.wait();
     p.rest_mouse();
@@ -392,6 +394,7 @@ void review(Photographer& p) {
     p.take("review-correct");
     p.click("operation.back");
     p.wait();
+    p.scroll("rail.review", 30);
 }
 
 void history(Photographer& p) {
