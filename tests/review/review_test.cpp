@@ -171,3 +171,69 @@ SCENARIO("An edit's hash follows what it is", "[review]") {
     session.undo();
     CHECK(hash(2) == third);
 }
+
+SCENARIO("A verdict is entered without a file", "[review]") {
+    const std::string project = reviewed_project();
+    Session session = Session::open(project, options());
+    const ReviewedEdit seen = review_of(session).edits.at(1);
+    EditVerdict said{.edit = seen.edit, .hash = seen.hash, .verdict = Verdict::Accept};
+    const Reviewer kern{"A. Kern", "radiologist"};
+    WHEN("it accepts an edit") {
+        const ImportedVerdicts entered = enter_verdict(session, kern, said);
+        CHECK(imported_words(entered) == "1 verdict of A. Kern");
+        THEN("that edit alone is accepted, and the record knows it") {
+            CHECK(statuses(session) ==
+                  std::vector{ReviewStatus::Open, ReviewStatus::Accepted, ReviewStatus::Open});
+            CHECK(session.project().check_record().findings.empty());
+            CHECK(session.project().check_record().entries.back().kind == "verdicts");
+        }
+        THEN("a later one of the same reviewer replaces it, also within a second") {
+            said.verdict = Verdict::Reject;
+            said.comment = "too high";
+            enter_verdict(session, kern, said);
+            CHECK(statuses(session)[1] == ReviewStatus::Rejected);
+            said.verdict = Verdict::Accept;
+            said.comment.clear();
+            CHECK_FALSE(enter_verdict(session, kern, said).known);
+            CHECK(statuses(session)[1] == ReviewStatus::Accepted);
+        }
+    }
+    WHEN("the edit was changed since it was seen, it is outdated") {
+        session.change_edit(2, {{"at", kTop}, {"reach", 4.0}, {"height", 0.75}});
+        CHECK(imported_words(enter_verdict(session, kern, said)) ==
+              "1 verdict of A. Kern, 1 of them on what has changed since");
+        CHECK(statuses(session)[1] == ReviewStatus::Outdated);
+    }
+    THEN("what a file could not say is refused") {
+        CHECK_THROWS_AS(enter_verdict(session, {"", ""}, said), InvalidInput);
+        said.verdict = Verdict::Reject;
+        CHECK_THROWS_WITH(enter_verdict(session, kern, said), Contains("the verdict"));
+        said.edit.revision = 7;
+        said.comment = "why";
+        CHECK_THROWS_AS(enter_verdict(session, kern, said), InvalidInput);
+        CHECK(review_of(session).files == 0);
+    }
+}
+
+SCENARIO("A review has the pins of each reviewer's newest verdicts", "[review]") {
+    const std::string project = reviewed_project();
+    Session session = Session::open(project, options());
+    VerdictFile kern = verdicts_on(session, "A. Kern", Verdict::None);
+    kern.edits[1].pins = {{.place = Vec3(1, 2, 3), .text = "look here"}};
+    enter(session, project, kern);
+    const std::vector<GivenPin> pins = review_of(session).edits.at(1).pins;
+    REQUIRE(pins.size() == 1);
+    CHECK(pins[0].reviewer == "A. Kern");
+    CHECK(pins[0].pin.text == "look here");
+    CHECK(pins[0].pin.place == Vec3(1, 2, 3));
+    CHECK_FALSE(pins[0].outdated);
+    THEN("they are outdated once the edit is changed") {
+        session.change_edit(2, {{"at", kTop}, {"reach", 4.0}, {"height", 0.75}});
+        CHECK(review_of(session).edits.at(1).pins.at(0).outdated);
+    }
+    THEN("newer verdicts on the edit replace them") {
+        enter(session, project,
+              verdicts_on(session, "A. Kern", Verdict::Accept, "2030-01-02T00:00:00Z"));
+        CHECK(review_of(session).edits.at(1).pins.empty());
+    }
+}

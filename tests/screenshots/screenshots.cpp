@@ -375,6 +375,28 @@ void places(Photographer& p) {
     p.click("operation.back");
 }
 
+void review(Photographer& p) {
+    p.scroll("rail.smoothing", -30);
+    p.click("rail.review");
+    p.wait();
+    p.click("review.edit.4");
+    p.fill("review.name", "A. Kern");
+    p.fill("review.role", "radiologist");
+    p.click("review.keep_name");
+    p.fill("review.comment", "a hole is left");
+    p.click("review.reject");
+    p.wait();
+    p.rest_mouse();
+    p.take("review");
+    p.click("review.correct");
+    p.wait();
+    p.rest_mouse();
+    p.take("review-correct");
+    p.click("operation.back");
+    p.wait();
+    p.scroll("rail.review", 30);
+}
+
 void history(Photographer& p) {
     for (int i = 0; i < 2; ++i) {
         p.click("tool.undo");
@@ -412,6 +434,7 @@ int run(const std::vector<std::string>& words) {
     looks(photographer);
     forms(photographer);
     places(photographer);
+    review(photographer);
     history(photographer);
     return 0;
 }

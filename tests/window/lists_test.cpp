@@ -228,12 +228,16 @@ SCENARIO("Settings remember recent projects", "[window][settings]") {
     settings.remember(folder + "/b.vbench");
     settings.remember(folder + "/a.vbench");
     settings.dark = false;
+    settings.reviewer = "A. Kern";
+    settings.reviewer_role = "radiologist";
     REQUIRE(settings.save());
     CHECK(fs::status(folder + "/config/settings.json").permissions() ==
           (fs::perms::owner_read | fs::perms::owner_write));
     fs::remove(folder + "/b.vbench");
     const Settings again(folder + "/config");
     CHECK_FALSE(again.dark);
+    CHECK(again.reviewer == "A. Kern");
+    CHECK(again.reviewer_role == "radiologist");
     REQUIRE(again.recent().size() == 2);
     CHECK(again.recent()[0].file.filename() == "a.vbench");
     CHECK_FALSE(again.recent()[0].missing);

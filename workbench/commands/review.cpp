@@ -50,15 +50,6 @@ void print_review(const Review& review) {
     std::cout << review_words(review) << "\n";
 }
 
-std::string import_words(const std::string& file, const ImportedVerdicts& done) {
-    const std::string by = printable(done.verdicts.reviewer);
-    if (done.known) return bare_name(file) + ": these verdicts of " + by + " are entered already";
-    return bare_name(file) + ": " + counted(done.verdicts.edits.size(), "verdict") + " of " + by +
-           (done.outdated > 0
-                ? ", " + std::to_string(done.outdated) + " of them on what has changed since"
-                : "");
-}
-
 PageImages images_of(const std::string& word) {
     if (word == "off") return PageImages::None;
     return word == "slices" ? PageImages::Slices : PageImages::Contours;
@@ -85,7 +76,7 @@ void review_project(const ReviewArguments& arguments, const Progress& progress) 
     Json imported = Json::array();
     for (const std::string& file : arguments.imported) {
         const ImportedVerdicts done = import_verdicts(session, file);
-        remark(import_words(file, done));
+        remark(bare_name(file) + ": " + imported_words(done));
         imported.push_back({{"file", bare_name(file)},
                             {"reviewer", done.verdicts.reviewer},
                             {"verdicts", done.verdicts.edits.size()},

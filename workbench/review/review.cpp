@@ -12,10 +12,12 @@
 #include "geometry/kernel/printable.h"
 #include "geometry/kernel/wording.h"
 #include "workbench/case/json_text.h"
+#include "workbench/case/version.h"
 #include "workbench/project/content_hash.h"
 #include "workbench/project/project.h"
 #include "workbench/project/record_check.h"
 #include "workbench/project/stored_text.h"
+#include "workbench/project/utc_time.h"
 
 namespace vesselbench {
 
@@ -89,15 +91,32 @@ void add_verdicts(const std::vector<VerdictFile>& files, ReviewedEdit& edit) {
     edit.status = status_of(edit.verdicts);
 }
 
+void add_pins(const std::vector<VerdictFile>& files, ReviewedEdit& edit) {
+    std::map<std::string, const EditVerdict*> newest;
+    for (const VerdictFile& file : files)
+        for (const EditVerdict& verdict : file.edits) {
+            if (verdict.edit.id != edit.edit.id) continue;
+            const EditVerdict*& found = newest[file.reviewer];
+            if (found == nullptr || found->time <= verdict.time) found = &verdict;
+        }
+    for (const auto& [reviewer, verdict] : newest)
+        for (const Pin& pin : verdict->pins)
+            edit.pins.push_back(
+                {.reviewer = reviewer, .pin = pin, .outdated = verdict->hash != edit.hash});
+}
+
 Review review_of(const ProjectFile& project, const std::vector<LogEntry>& log) {
     const std::vector<VerdictFile> files = stored_verdicts(project);
     Review review{.files = files.size()};
-    for (const LogEntry& entry : log)
-        add_verdicts(files,
-                     review.edits.emplace_back(ReviewedEdit{.edit = entry.edit.edit,
-                                                            .place = entry.edit.place,
-                                                            .operation = entry.edit.operation,
-                                                            .hash = edit_hash(project, entry)}));
+    for (const LogEntry& entry : log) {
+        ReviewedEdit& edit =
+            review.edits.emplace_back(ReviewedEdit{.edit = entry.edit.edit,
+                                                   .place = entry.edit.place,
+                                                   .operation = entry.edit.operation,
+                                                   .hash = edit_hash(project, entry)});
+        add_verdicts(files, edit);
+        add_pins(files, edit);
+    }
     ByReviewer overall;
     for (const VerdictFile& file : files)
         if (file.overall != Verdict::None)
@@ -172,6 +191,23 @@ std::string facts_of(const VerdictFile& file) {
                            {"chain_head", file.chain_head},
                            {"overall", to_string(file.overall)},
                            {"edits", edits}});
+}
+
+/// \param name of the verdicts in error texts
+ImportedVerdicts enter(Session& session, VerdictFile verdicts, const std::string& name) {
+    ImportedVerdicts done{.verdicts = std::move(verdicts)};
+    check_origin(done.verdicts, name, session);
+    const std::string text = text_of(done.verdicts);
+    done.known = !session.add_verdicts(
+        text, sha256(text),
+        {.kind = "verdicts", .subject = done.verdicts.reviewer, .facts = facts_of(done.verdicts)});
+    std::set<std::string> now;
+    for (const LogEntry& entry : session.log()) now.insert(edit_hash(session.project(), entry));
+    done.outdated = static_cast<std::size_t>(
+        std::ranges::count_if(done.verdicts.edits, [&](const EditVerdict& verdict) {
+            return verdict.verdict != Verdict::None && !now.contains(verdict.hash);
+        }));
+    return done;
 }
 
 }  // namespace
@@ -259,20 +295,33 @@ void require_accepted(const Review& review, std::size_t reviewers) {
                             .words = {{"edits", joined(missing)}}});
 }
 
+std::string imported_words(const ImportedVerdicts& imported) {
+    const std::string by = printable(imported.verdicts.reviewer);
+    if (imported.known) return "these verdicts of " + by + " are entered already";
+    std::string words = counted(imported.verdicts.edits.size(), "verdict") + " of " + by;
+    if (imported.outdated > 0)
+        words += ", " + std::to_string(imported.outdated) + " of them on what has changed since";
+    return words;
+}
+
 ImportedVerdicts import_verdicts(Session& session, const std::filesystem::path& file) {
-    ImportedVerdicts done{.verdicts = verdicts_from_file(file)};
-    check_origin(done.verdicts, bare_name(file), session);
-    const std::string text = text_of(done.verdicts);
-    done.known = !session.add_verdicts(
-        text, sha256(text),
-        {.kind = "verdicts", .subject = done.verdicts.reviewer, .facts = facts_of(done.verdicts)});
-    std::set<std::string> now;
-    for (const LogEntry& entry : session.log()) now.insert(edit_hash(session.project(), entry));
-    done.outdated = static_cast<std::size_t>(
-        std::ranges::count_if(done.verdicts.edits, [&](const EditVerdict& verdict) {
-            return verdict.verdict != Verdict::None && !now.contains(verdict.hash);
-        }));
-    return done;
+    return enter(session, verdicts_from_file(file), bare_name(file));
+}
+
+ImportedVerdicts enter_verdict(Session& session, const Reviewer& reviewer, EditVerdict verdict) {
+    const ProjectFile& project = session.project();
+    const std::string now = utc_now();
+    verdict.time = now;
+    const VerdictFile file{.program = version(),
+                           .project = project.id(),
+                           .project_name = project.name(),
+                           .chain_head = project.record_head(),
+                           .reviewer = reviewer.name,
+                           .role = reviewer.role,
+                           .written = now,
+                           .edits = {std::move(verdict)}};
+    const std::string name = "the verdict";
+    return enter(session, verdicts_from_text(text_of(file), name), name);
 }
 
 }  // namespace vesselbench

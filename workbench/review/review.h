@@ -34,6 +34,13 @@ enum class ReviewStatus : std::uint8_t {
 
 [[nodiscard]] std::string to_string(ReviewStatus status);
 
+/// A pin of a reviewer's newest verdicts that name the edit.
+struct GivenPin {
+    std::string reviewer;
+    Pin pin;
+    bool outdated = false;  ///< the edit, or its result, is another one now
+};
+
 /// An edit of the current state with its verdicts.
 struct ReviewedEdit {
     EditRef edit;
@@ -42,6 +49,7 @@ struct ReviewedEdit {
     std::string hash;
     ReviewStatus status = ReviewStatus::Open;
     std::vector<GivenVerdict> verdicts;  ///< by reviewer, ascending
+    std::vector<GivenPin> pins;          ///< by reviewer, also of those who have not decided
 };
 
 /// The reviews of the current state.
@@ -79,9 +87,22 @@ struct ImportedVerdicts {
     std::size_t outdated = 0;  ///< verdicts on what is another edit or result now
 };
 
+/// "3 verdicts of A. Kern, 1 of them on what has changed since"
+[[nodiscard]] std::string imported_words(const ImportedVerdicts& imported);
+
 /// Enters a reviewer's verdicts into the project, once.
 /// \throw InvalidInput that names the file and the field, also if they are another project's;
 /// IoError
 ImportedVerdicts import_verdicts(Session& session, const std::filesystem::path& file);
+
+/// Who reviews.
+struct Reviewer {
+    std::string name, role;
+};
+
+/// Enters what somebody who reviews in the program says of an edit, with the time of the call.
+/// \param verdict its hash is that of the edit the reviewer saw
+/// \throw as import_verdicts(): a rejection without a reason, a reviewer without a name
+ImportedVerdicts enter_verdict(Session& session, const Reviewer& reviewer, EditVerdict verdict);
 
 }  // namespace vesselbench

@@ -450,17 +450,31 @@ void Document::save_copy(const std::filesystem::path& project) {
 }
 
 void Document::write_table(const std::filesystem::path& file, const std::string& table) {
-    if (!begin_request(RequestKind::Output)) return;
-    const auto write = [file, table](Session& session, const Progress&) {
+    write_text(file, output_label("Export"), [table](Session&, const Progress&) { return table; });
+}
+
+void Document::write_text(const std::filesystem::path& file, const RequestLabel& label,
+                          std::function<std::string(Session&, const Progress&)> make) {
+    const auto write = [file, make = std::move(make)](Session& session, const Progress& progress) {
         require_no_source(session, file);
         PendingFiles files;
-        files.add_text(file, table);
+        files.add_text(file, make(session, progress));
+        progress.check_cancelled();
         files.commit();
-        return Nothing{};
+        return make_message(MessageKind::Success, "Exported " + file.string());
     };
-    const std::string done = "Exported " + file.string();
-    watch(runner_->submit(write), output_label("Export"),
-          [this, done](const Nothing&) { tell(make_message(MessageKind::Success, done)); });
+    run(label, write, {});
+}
+
+void Document::run(const RequestLabel& label,
+                   std::function<Message(Session&, const Progress&)> work,
+                   std::function<void()> then) {
+    if (!begin_request(label.kind)) return;
+    watch(runner_->submit(std::move(work)), label,
+          [this, then = std::move(then)](const Message& done) {
+              tell(done);
+              if (then) then();
+          });
 }
 
 // --- previews

@@ -179,6 +179,16 @@ public:
     /// Writes a text of the window's, which must not replace a source of the project.
     void write_table(const std::filesystem::path& file, const std::string& table);
 
+    /// The same of a text that is made on the case's thread.
+    void write_text(const std::filesystem::path& file, const RequestLabel& label,
+                    std::function<std::string(Session&, const Progress&)> make);
+
+    /// A feature's request, run on the case's thread.
+    /// \param work returns what is said of its success
+    /// \param then called by poll() after a success
+    void run(const RequestLabel& label, std::function<Message(Session&, const Progress&)> work,
+             std::function<void()> then);
+
     // --- strokes of a brush
 
     /// True if a stroke may begin: of other requests, only strokes are being entered.

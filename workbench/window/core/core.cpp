@@ -190,6 +190,8 @@ void Core::answer(const std::filesystem::path& file) {
             return form() ? set_field(asked_parameter_, file.string()) : void();
         case FileQuestion::Picture:
         case FileQuestion::Measures:
+        case FileQuestion::ReviewPage:
+        case FileQuestion::Verdicts:
             for (const auto& feature : features.all()) feature->file_chosen(question, file);
             return;
         case FileQuestion::SaveRecipe:

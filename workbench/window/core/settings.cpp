@@ -96,6 +96,9 @@ void Settings::read() {
         for (const auto& [name, layer] : kLayers)
             if (shown == name) layers.*layer = true;
     panels = panels_in(json.value("panels", Json::object()));
+    const Json person = json.value("reviewer", Json::object());
+    reviewer = person.value("name", std::string());
+    reviewer_role = person.value("role", std::string());
     for (const Json& entry : json.value("recent", Json::array()))
         recent_.push_back(
             {entry.at("file").get<std::string>(), entry.value("opened", std::string())});
@@ -137,6 +140,7 @@ std::string Settings::text() const {
                        {"scale", scale},
                        {"layers", shown},
                        {"panels", json_of(panels)},
+                       {"reviewer", {{"name", reviewer}, {"role", reviewer_role}}},
                        {"recent", list}};
     return text_from_json(json, 2) + "\n";
 }

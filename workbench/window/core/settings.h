@@ -35,6 +35,7 @@ public:
     double scale = 1.0;  ///< of all sizes, on top of the display's; in the range of kScales
     ShownLayers layers;  ///< of the view
     PanelSizes panels;
+    std::string reviewer, reviewer_role;  ///< who gives verdicts, as entered; empty: not known
 
     [[nodiscard]] const std::vector<RecentProject>& recent() const { return recent_; }
 

@@ -25,7 +25,9 @@ std::vector<std::string> suffixes_for(FileQuestion question) {
     if (question == FileQuestion::SaveCopy) return {".vbench"};
     if (question == FileQuestion::Picture) return {".png"};
     if (question == FileQuestion::Measures) return {".csv"};
-    if (question == FileQuestion::SaveRecipe) return {".json"};
+    if (question == FileQuestion::ReviewPage) return {".html"};
+    if (question == FileQuestion::SaveRecipe || question == FileQuestion::Verdicts)
+        return {".json"};
     if (question == FileQuestion::Open) return openable_suffixes();
     if (question == FileQuestion::Parameter) {
         std::vector<std::string> suffixes = openable_suffixes();
@@ -54,6 +56,10 @@ const char* title_of(FileQuestion question) {
             return "Export the measurements";
         case FileQuestion::SaveRecipe:
             return "Save the recipe";
+        case FileQuestion::ReviewPage:
+            return "Write a page for reviewers";
+        case FileQuestion::Verdicts:
+            return "Import verdicts";
         case FileQuestion::None:
             break;
     }
@@ -75,6 +81,7 @@ const char* ending_for(FileQuestion question, bool volume) {
     if (question == FileQuestion::Picture) return ".png";
     if (question == FileQuestion::Measures) return ".csv";
     if (question == FileQuestion::SaveRecipe) return " recipe.json";
+    if (question == FileQuestion::ReviewPage) return " review.html";
     if (question != FileQuestion::Export) return " copy.vbench";
     return volume ? ".vtu" : ".stl";
 }
@@ -94,6 +101,7 @@ std::string needed_suffix(FileQuestion question) {
     if (question == FileQuestion::SaveCopy) return ".vbench";
     if (question == FileQuestion::Measures) return ".csv";
     if (question == FileQuestion::SaveRecipe) return ".json";
+    if (question == FileQuestion::ReviewPage) return ".html";
     return question == FileQuestion::Picture ? ".png" : "";
 }
 
@@ -132,7 +140,7 @@ std::string size_text(std::uintmax_t bytes) {
 bool FileDialog::writes() const {
     return question_ == FileQuestion::SaveCopy || question_ == FileQuestion::Export ||
            question_ == FileQuestion::Picture || question_ == FileQuestion::Measures ||
-           question_ == FileQuestion::SaveRecipe;
+           question_ == FileQuestion::SaveRecipe || question_ == FileQuestion::ReviewPage;
 }
 
 void FileDialog::enter(const fs::path& folder) {

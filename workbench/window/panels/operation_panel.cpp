@@ -15,6 +15,7 @@
 #include "workbench/window/features/extraction/extraction_panel.h"
 #include "workbench/window/features/handles/handles_feature.h"
 #include "workbench/window/features/openings/openings_panel.h"
+#include "workbench/window/features/review/review_panel.h"
 #include "workbench/window/fields/form_fields.h"
 #include "workbench/window/form/field_text.h"
 #include "workbench/window/panels/live_panel.h"
@@ -60,11 +61,7 @@ void draw_group(PanelContext& c, const std::string& title, Step step, bool usual
 
 /// What the last step is for is no operation: it changes nothing.
 void draw_review(PanelContext& c) {
-    ImGui::SetCursorPosX(c.ui.grid(2));
-    wrapped(c.ui,
-            "Compare the model with its earlier states below, in the history, and check its "
-            "outline in the slices. Notes on edits are kept with the project.",
-            c.ui.theme.muted);
+    draw_review_panel(c);
     space(c.ui, 1);
     ImGui::SetCursorPosX(c.ui.grid(2));
     const float width = ImGui::GetContentRegionAvail().x - c.ui.grid(2);

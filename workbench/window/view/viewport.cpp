@@ -25,6 +25,7 @@
 #include "workbench/window/features/openings/role_card.h"
 #include "workbench/window/features/picking/view_places.h"
 #include "workbench/window/features/picture/view_picture.h"
+#include "workbench/window/features/review/review_pins.h"
 #include "workbench/window/features/slices/slice_row.h"
 #include "workbench/window/view/camera_control.h"
 #include "workbench/window/view/edit_marks.h"
@@ -282,6 +283,7 @@ void Viewport::Impl::draw_controls(PanelContext& c, const ScreenRect& area) {
 
 void Viewport::Impl::draw_model_marks(PanelContext& c, const PixelView& screen, bool over_view) {
     draw_measures(c, screen);
+    draw_review_pins(c, screen);
     draw_edit_marks(c, screen, over_view && !c.place.form() && !c.place.is_measuring());
 }
 

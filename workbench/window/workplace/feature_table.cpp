@@ -14,6 +14,7 @@
 #include "workbench/window/features/openings/openings_feature.h"
 #include "workbench/window/features/picture/picture_feature.h"
 #include "workbench/window/features/quality/quality_feature.h"
+#include "workbench/window/features/review/review_feature.h"
 #include "workbench/window/features/slices/slices_feature.h"
 
 namespace vesselbench {
@@ -33,6 +34,7 @@ void add_features(Core& core, const LiveDevice& device) {
     all.add(std::make_unique<HandlesFeature>(core));
     all.add(std::make_unique<BrushFeature>(core));
     all.add(std::make_unique<PictureFeature>());
+    all.add(std::make_unique<ReviewFeature>(core));
 }
 
 }  // namespace vesselbench

@@ -1,0 +1,290 @@
+#include <filesystem>
+#include <tuple>
+#include <utility>
+
+#include <catch2/catch.hpp>
+
+#include "geometry/kernel/whole_file.h"
+#include "tests/support/shapes.h"
+#include "tests/window/window_support.h"
+#include "workbench/operations/table.h"
+#include "workbench/project/project.h"
+#include "workbench/review/review_page_bytes.h"
+#include "workbench/window/features/review/review_feature.h"
+#include "workbench/window/features/review/review_words.h"
+
+using namespace vesselbench;
+using namespace vesselbench::test;
+using namespace std::chrono_literals;
+using Catch::Matchers::Contains;
+
+namespace {
+
+ReviewFeature& feature_of(OffscreenShell& shell) {
+    return shell.app().place().get<ReviewFeature>();
+}
+
+/// A tube that was loaded as edit 1 and smoothed by edit 2, in the review step.
+std::unique_ptr<OffscreenShell> reviewed_tube() {
+    auto shell = test_shell();
+    if (!shell) return nullptr;
+    open_and_wait(*shell, tube_file());
+    shell->app().place().document.apply("smooth", {{"iterations", Value(std::int64_t{2})}},
+                                        find_operation("smooth").usual_step);
+    REQUIRE(wait_until_idle(*shell));
+    REQUIRE(shell->click_item("rail.review"));
+    REQUIRE(shell->settle(60s));
+    REQUIRE(feature_of(*shell).review());
+    return shell;
+}
+
+/// Edit 3, which shrinks the tube.
+void smooth_strongly(OffscreenShell& shell) {
+    shell.app().place().document.apply(
+        "smooth",
+        {{"filter", Value(std::string("laplace"))}, {"iterations", Value(std::int64_t{200})}},
+        Step::Smoothing);
+    REQUIRE(wait_until_idle(shell));
+    REQUIRE(shell.settle(60s));
+}
+
+ReviewStatus status_of_edit(OffscreenShell& shell, EditId id) {
+    for (const ReviewedEdit& edit : feature_of(shell).review()->edits)
+        if (edit.edit.id == id) return edit.status;
+    FAIL("the model has no such edit");
+    return ReviewStatus::Open;
+}
+
+void say_who(OffscreenShell& shell) {
+    REQUIRE(shell.fill_item("review.name", "A. Kern"));
+    REQUIRE(shell.fill_item("review.role", "radiologist"));
+    REQUIRE(shell.click_item("review.keep_name"));
+}
+
+void click_and_wait(OffscreenShell& shell, const std::string& item) {
+    REQUIRE(shell.click_item(item));
+    REQUIRE(wait_until_idle(shell));
+    REQUIRE(shell.settle(60s));
+}
+
+void answer_and_wait(OffscreenShell& shell, const std::filesystem::path& file) {
+    shell.app().place().answer(file);
+    REQUIRE(wait_until_idle(shell));
+    REQUIRE(shell.settle(60s));
+}
+
+/// What the page would save of the shown review, with a pin on edit 2.
+VerdictFile file_of_roth(OffscreenShell& shell) {
+    VerdictFile file{.program = "page",
+                     .reviewer = "B. Roth",
+                     .role = "surgeon",
+                     .written = "2030-01-01T00:00:00Z"};
+    const auto origin =
+        shell.app().place().document.runner()->submit([](Session& session, const Progress&) {
+            return std::pair(session.project().id(), session.project().record_head());
+        });
+    std::tie(file.project, file.chain_head) = origin.result();
+    file.project_name = "tube";
+    for (const ReviewedEdit& edit : feature_of(shell).review()->edits)
+        file.edits.push_back({.edit = edit.edit, .hash = edit.hash, .verdict = Verdict::Accept});
+    file.edits[1].verdict = Verdict::Reject;
+    file.edits[1].comment = "too smooth";
+    file.edits[1].pins = {{.place = Vec3(4, 0, 5), .text = "here it shrinks"}};
+    return file;
+}
+
+std::filesystem::path beside_project(OffscreenShell& shell, const std::string& name) {
+    return shell.app().place().document.project().parent_path() / name;
+}
+
+void import_roth(OffscreenShell& shell) {
+    const auto file = beside_project(shell, "verdicts.json");
+    write_file(file, text_of(file_of_roth(shell)));
+    REQUIRE(shell.click_item("review.import"));
+    REQUIRE(shell.app().place().question() == FileQuestion::Verdicts);
+    answer_and_wait(shell, file);
+}
+
+const Message& last_message(OffscreenShell& shell) {
+    return shell.app().place().document.messages().back();
+}
+
+}  // namespace
+
+SCENARIO("Edits are judged in the review step", "[window][review]") {
+    const auto shell = reviewed_tube();
+    if (!shell) return;
+    CHECK(review_words(*feature_of(*shell).review()) == "not reviewed");
+    CHECK(status_of_edit(*shell, 2) == ReviewStatus::Open);
+    CHECK_FALSE(shell->has("review.accept"));
+    REQUIRE(shell->click_item("review.edit.2"));
+    CHECK_FALSE(shell->has("review.accept"));  // nobody knows who reviews
+    say_who(*shell);
+    WHEN("one is accepted") {
+        click_and_wait(*shell, "review.accept");
+        CHECK(status_of_edit(*shell, 2) == ReviewStatus::Accepted);
+        CHECK(status_of_edit(*shell, 1) == ReviewStatus::Open);
+        CHECK(last_message(*shell).text == "Accepted edit 2, Smooth");
+        const GivenVerdict& given = feature_of(*shell).chosen()->verdicts.at(0);
+        CHECK(given.reviewer == "A. Kern");
+        CHECK(given.role == "radiologist");
+        THEN("it is outdated once the edit is changed") {
+            shell->app().place().document.change(2, {{"iterations", Value(std::int64_t{3})}});
+            REQUIRE(wait_until_idle(*shell));
+            REQUIRE(shell->settle(60s));
+            CHECK(status_of_edit(*shell, 2) == ReviewStatus::Outdated);
+            CHECK(shell->app().place().step() == Step::Review);
+        }
+        THEN("it is kept with the project, and the name with the settings") {
+            const auto project = shell->app().place().document.project();
+            shell->app().place().close();
+            REQUIRE(shell->settle(60s));
+            const Session session = Session::open(project, session_options());
+            CHECK(review_of(session).edits[1].status == ReviewStatus::Accepted);
+            CHECK(shell->app().place().settings.reviewer == "A. Kern");
+            CHECK_FALSE(feature_of(*shell).review());
+        }
+    }
+    WHEN("one is rejected") {
+        THEN("that needs a reason") {
+            CHECK_FALSE(shell->click_item("review.reject"));
+            feature_of(*shell).give(Verdict::Reject);
+            REQUIRE(shell->fill_item("review.comment", "  "));
+            CHECK_FALSE(shell->click_item("review.reject"));
+            CHECK(feature_of(*shell).why_not(Verdict::Reject) == "a rejection needs a reason");
+            CHECK(status_of_edit(*shell, 2) == ReviewStatus::Open);
+        }
+        THEN("its form opens for the correction") {
+            REQUIRE(shell->fill_item("review.comment", "too smooth"));
+            click_and_wait(*shell, "review.reject");
+            CHECK(status_of_edit(*shell, 2) == ReviewStatus::Rejected);
+            CHECK(feature_of(*shell).comment.empty());
+            CHECK(remark_of(*feature_of(*shell).chosen()) == "A. Kern: too smooth");
+            REQUIRE(shell->click_item("review.correct"));
+            REQUIRE(shell->app().place().form());
+            CHECK(shell->app().place().form()->edit() == EditId{2});
+            CHECK(shell->has("banner.review.action"));
+            REQUIRE(shell->fill_item("field.iterations", "1"));
+            click_and_wait(*shell, "operation.apply");
+            const LogEntry& changed = shell->app().place().document.snapshot()->log[1];
+            CHECK(changed.edit.edit.revision == 2);
+            CHECK(changed.edit.note == "answers A. Kern: too smooth");
+            REQUIRE(shell->click_item("rail.review"));
+            REQUIRE(shell->settle(60s));
+            CHECK(status_of_edit(*shell, 2) == ReviewStatus::Outdated);
+        }
+        THEN("leaving its form answers nothing") {
+            REQUIRE(shell->fill_item("review.comment", "too smooth"));
+            click_and_wait(*shell, "review.reject");
+            REQUIRE(shell->click_item("review.correct"));
+            REQUIRE(shell->click_item("banner.review.action"));
+            CHECK(shell->app().place().step() == Step::Review);
+            shell->app().place().document.change(2, {{"iterations", Value(std::int64_t{3})}});
+            REQUIRE(wait_until_idle(*shell));
+            REQUIRE(shell->settle(60s));
+            CHECK(shell->app().place().document.snapshot()->log[1].edit.note.empty());
+        }
+    }
+    WHEN("the reviewer is unsure, the edit stays open") {
+        click_and_wait(*shell, "review.unsure");
+        CHECK(status_of_edit(*shell, 2) == ReviewStatus::Open);
+        CHECK(feature_of(*shell).chosen()->verdicts.size() == 1);
+    }
+    WHEN("another person reviews") {
+        click_and_wait(*shell, "review.accept");
+        REQUIRE(shell->click_item("review.who"));
+        REQUIRE(shell->fill_item("review.name", "B. Roth"));
+        REQUIRE(shell->click_item("review.keep_name"));
+        REQUIRE(shell->fill_item("review.comment", "too smooth"));
+        click_and_wait(*shell, "review.reject");
+        THEN("they may disagree") {
+            CHECK(status_of_edit(*shell, 2) == ReviewStatus::Disputed);
+            CHECK(remark_of(*feature_of(*shell).chosen()) == "B. Roth: too smooth");
+        }
+    }
+}
+
+SCENARIO("The review step names what to look at first", "[window][review]") {
+    const auto shell = reviewed_tube();
+    if (!shell) return;
+    smooth_strongly(*shell);
+    CHECK_FALSE(shell->has("review.queue.0"));
+    click_and_wait(*shell, "review.find");
+    CHECK_FALSE(shell->has("review.find"));
+    REQUIRE(feature_of(*shell).queue());
+    REQUIRE_FALSE(feature_of(*shell).queue()->empty());
+    const QueueItem first = feature_of(*shell).queue()->front();
+    CHECK(first.edit == 3);
+    REQUIRE(shell->click_item("review.queue.0"));
+    CHECK(feature_of(*shell).chosen()->edit.id == 3);
+    CHECK(shell->app().place().looked_at() == first.place);
+    THEN("it is looked for again once an edit has changed") {
+        shell->app().place().document.change(2, {{"iterations", Value(std::int64_t{3})}});
+        REQUIRE(wait_until_idle(*shell));
+        REQUIRE(shell->settle(60s));
+        CHECK_FALSE(feature_of(*shell).queue());
+        CHECK(shell->has("review.find"));
+    }
+}
+
+SCENARIO("Verdicts are imported in the review step", "[window][review]") {
+    const auto shell = reviewed_tube();
+    if (!shell) return;
+    import_roth(*shell);
+    CHECK_THAT(last_message(*shell).text, Contains("2 verdicts of B. Roth"));
+    CHECK(status_of_edit(*shell, 1) == ReviewStatus::Accepted);
+    CHECK(status_of_edit(*shell, 2) == ReviewStatus::Rejected);
+    THEN("their pins are in the view, and are looked at from the list") {
+        CHECK(shell->has("view.pin.2.0"));
+        REQUIRE(shell->click_item("review.edit.2"));
+        REQUIRE(shell->click_item("review.pin.0"));
+        CHECK(shell->app().place().looked_at() == Vec3(4, 0, 5));
+    }
+    THEN("pins are seen while the edit is corrected, and in no other step") {
+        REQUIRE(shell->click_item("review.edit.2"));
+        REQUIRE(shell->click_item("review.correct"));
+        REQUIRE(shell->settle(60s));
+        CHECK(shell->has("view.pin.2.0"));
+        REQUIRE(shell->click_item("rail.smoothing"));
+        CHECK_FALSE(shell->has("view.pin.2.0"));
+    }
+    THEN("a second time they are known") {
+        shell->app().place().ask(FileQuestion::Verdicts);
+        answer_and_wait(*shell, beside_project(*shell, "verdicts.json"));
+        CHECK_THAT(last_message(*shell).text, Contains("entered already"));
+    }
+    THEN("what is no file of verdicts is refused by a message") {
+        const auto file = beside_project(*shell, "other.json");
+        write_file(file, "{}");
+        shell->app().place().ask(FileQuestion::Verdicts);
+        answer_and_wait(*shell, file);
+        CHECK(last_message(*shell).kind == MessageKind::Error);
+        CHECK_THAT(last_message(*shell).text, Contains("other.json"));
+        CHECK(status_of_edit(*shell, 1) == ReviewStatus::Accepted);
+    }
+}
+
+SCENARIO("The review page is written from the review step", "[window][review]") {
+    const auto shell = reviewed_tube();
+    if (!shell) return;
+    REQUIRE(shell->click_item("review.page"));
+    CHECK(shell->app().place().question() == FileQuestion::ReviewPage);
+    const auto file = beside_project(*shell, "page.html");
+    answer_and_wait(*shell, file);
+    if (review_page_bytes().size() < 1000) {  // built without the page
+        CHECK(last_message(*shell).kind == MessageKind::Error);
+    } else {
+        CHECK(last_message(*shell).kind == MessageKind::Success);
+        CHECK(std::filesystem::file_size(file) > review_page_bytes().size());
+    }
+}
+
+SCENARIO("What reviewers wrote is shown in one short line", "[window][review]") {
+    const GivenPin pin{.reviewer = "A. Kern", .pin = {.text = std::string(5000, 'x')}};
+    CHECK(pin_words(pin).size() < 150);
+    CHECK(pin_words({.reviewer = "A. Kern", .pin = {}, .outdated = true}) ==
+          "A. Kern: pin (outdated)");
+    CHECK(verdict_words({.reviewer = "A. Kern\x1b", .time = "soon", .verdict = Verdict::Unsure}) ==
+          "A. Kern\\x1b: unsure, soon");
+    CHECK(remark_of(ReviewedEdit{}).empty());
+}

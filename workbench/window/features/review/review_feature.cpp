@@ -1,0 +1,208 @@
+#include "workbench/window/features/review/review_feature.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "geometry/kernel/wording.h"
+#include "workbench/operations/table.h"
+#include "workbench/review/review_page.h"
+#include "workbench/window/case/edit_places.h"
+#include "workbench/window/case/rail.h"
+#include "workbench/window/case/readable.h"
+#include "workbench/window/features/review/review_banner.h"
+#include "workbench/window/features/review/review_words.h"
+
+namespace vesselbench {
+
+namespace {
+
+std::string done_words(Verdict verdict, const ReviewedEdit& edit) {
+    const std::string what =
+        "edit " + std::to_string(edit.edit.id) + ", " + readable(edit.operation);
+    if (verdict == Verdict::Accept) return "Accepted " + what;
+    return (verdict == Verdict::Reject ? "Rejected " : "Unsure of ") + what;
+}
+
+bool is_blank(const std::string& text) {
+    return text.find_first_not_of(' ') == std::string::npos;
+}
+
+}  // namespace
+
+bool ReviewFeature::is_shown() const {
+    if (!core_.document.is_open()) return false;
+    if (core_.form()) return chosen_ && core_.form()->edit() == chosen_;
+    return core_.step() == Step::Review;
+}
+
+const ReviewedEdit* ReviewFeature::chosen() const {
+    if (!review_ || !chosen_) return nullptr;
+    const auto found = std::ranges::find_if(
+        review_->edits, [this](const ReviewedEdit& edit) { return edit.edit.id == *chosen_; });
+    return found == review_->edits.end() ? nullptr : &*found;
+}
+
+void ReviewFeature::choose(EditId edit) {
+    comment.clear();
+    if (std::exchange(chosen_, edit) == edit) return chosen_.reset();
+    const LogEntry* entry = find_entry(*core_.document.snapshot(), edit);
+    const Positions places = entry == nullptr ? Positions() : places_of_edit(*entry);
+    if (!places.empty()) core_.look_at(places.front());
+}
+
+void ReviewFeature::find_queue() {
+    const auto found = std::make_shared<std::vector<QueueItem>>();
+    const auto find = [found, variant = core_.document.variant()](Session& session,
+                                                                  const Progress& progress) {
+        const std::vector<LogEntry> log = session.log(variant);
+        *found = review_queue(log, page_models(session, log, progress), find_operation);
+        return make_message(MessageKind::Success,
+                            found->empty() ? "Nothing stands out in the edits"
+                                           : counted(found->size(), "thing") + " to look at first");
+    };
+    const auto keep = [this, found, changes = core_.document.snapshot_changes()] {
+        queue_ = *found;
+        queue_changes_ = changes;
+    };
+    core_.document.run({.what = "Looking for what to review first", .kind = RequestKind::Output},
+                       find, keep);
+}
+
+void ReviewFeature::look_at(const QueueItem& item) {
+    if (chosen_ != item.edit) choose(item.edit);
+    if (item.place) core_.look_at(*item.place);
+    reveals_ = true;
+}
+
+void ReviewFeature::correct() {
+    const ReviewedEdit* edit = chosen();
+    if (edit == nullptr) return;
+    const Answer answer{.to = edit->edit, .words = "answers " + remark_of(*edit)};
+    const bool rejected = is_rejected(*edit);
+    core_.choose_edit(answer.to.id);
+    if (rejected) answer_ = answer;
+}
+
+void ReviewFeature::applying() {
+    if (answer_ && core_.form()->edit() == answer_->to.id)
+        answer_->applied = true;
+    else
+        answer_.reset();
+}
+
+void ReviewFeature::form_dropped() {
+    if (answering_edit() == nullptr) answer_.reset();
+}
+
+/// The new revision of the edit that was rejected; null: it was not changed.
+const LogEntry* ReviewFeature::answering_edit() const {
+    if (!answer_ || !answer_->applied || !core_.document.is_open()) return nullptr;
+    const LogEntry* entry = find_entry(*core_.document.snapshot(), answer_->to.id);
+    return entry != nullptr && entry->edit.edit.revision > answer_->to.revision ? entry : nullptr;
+}
+
+void ReviewFeature::note_answer() {
+    const LogEntry* entry = answering_edit();
+    if (entry == nullptr || !core_.document.can(RequestKind::History)) return;
+    const std::string before = entry->edit.note.empty() ? "" : entry->edit.note + "; ";
+    core_.document.set_note(entry->edit.edit, before + answer_->words);
+    answer_.reset();
+}
+
+float ReviewFeature::banner(PanelContext& context, const ScreenRect& place) {
+    const ReviewedEdit* edit = core_.form() && is_shown() ? chosen() : nullptr;
+    return edit != nullptr && is_rejected(*edit) ? draw_review_banner(context, *edit, place) : 0.0F;
+}
+
+std::string ReviewFeature::why_not(Verdict verdict) const {
+    if (chosen() == nullptr) return "choose an edit";
+    if (asks_who()) return "say who you are first";
+    if (verdict == Verdict::Reject && is_blank(comment)) return "a rejection needs a reason";
+    return core_.document.why_not(RequestKind::History);
+}
+
+void ReviewFeature::give(Verdict verdict) {
+    if (!why_not(verdict).empty()) return;
+    const ReviewedEdit& edit = *chosen();
+    const EditVerdict said{.edit = edit.edit,
+                           .hash = edit.hash,
+                           .verdict = verdict,
+                           .comment = std::exchange(comment, {})};
+    const Reviewer reviewer{core_.settings.reviewer, core_.settings.reviewer_role};
+    enter("Entering a verdict",
+          [said, reviewer, done = done_words(verdict, edit)](Session& session, const Progress&) {
+              static_cast<void>(enter_verdict(session, reviewer, said));
+              return make_message(MessageKind::Success, done);
+          });
+}
+
+void ReviewFeature::ask_who() {
+    who = {core_.settings.reviewer, core_.settings.reviewer_role};
+    asks_who_ = true;
+}
+
+void ReviewFeature::keep_who() {
+    if (is_blank(who.name)) return;
+    core_.settings.reviewer = who.name;
+    core_.settings.reviewer_role = who.role;
+    core_.settings.save_soon();
+    asks_who_ = false;
+}
+
+bool ReviewFeature::update() {
+    note_answer();
+    if (queue_changes_ != core_.document.snapshot_changes()) queue_.reset();
+    const Version now{core_.document.opened(), core_.document.snapshot_changes(), entered_};
+    if (is_shown() && read_ != now) {
+        read_ = now;
+        reading_ = core_.document.runner()->submit(
+            [variant = core_.document.variant()](Session& session, const Progress&) {
+                return review_of(session, variant);
+            },
+            "review");
+    }
+    if (!reading_.poll()) return false;
+    review_ = reading_.newest();
+    return true;
+}
+
+void ReviewFeature::case_closed() {
+    reading_ = {};
+    review_.reset();
+    read_.reset();
+    chosen_.reset();
+    answer_.reset();
+    queue_.reset();
+    comment.clear();
+}
+
+void ReviewFeature::file_chosen(FileQuestion question, const std::filesystem::path& file) {
+    if (question == FileQuestion::ReviewPage) write_page(file);
+    if (question == FileQuestion::Verdicts) import(file);
+}
+
+/// Verdicts are read again afterwards.
+void ReviewFeature::enter(const std::string& what,
+                          std::function<Message(Session&, const Progress&)> work) {
+    core_.document.run({.what = what, .kind = RequestKind::History}, std::move(work),
+                       [this] { ++entered_; });
+}
+
+void ReviewFeature::write_page(const std::filesystem::path& file) {
+    core_.document.write_text(
+        file, {.what = "Writing the review page", .kind = RequestKind::Output},
+        [variant = core_.document.variant()](Session& session, const Progress& progress) {
+            return review_page(session, variant, find_operation, progress);
+        });
+}
+
+void ReviewFeature::import(const std::filesystem::path& file) {
+    enter("Importing verdicts", [file](Session& session, const Progress&) {
+        const ImportedVerdicts imported = import_verdicts(session, file);
+        const auto kind =
+            imported.known || imported.outdated > 0 ? MessageKind::Remark : MessageKind::Success;
+        return make_message(kind, file.filename().string() + ": " + imported_words(imported));
+    });
+}
+
+}  // namespace vesselbench

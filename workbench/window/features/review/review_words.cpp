@@ -1,0 +1,45 @@
+#include "workbench/window/features/review/review_words.h"
+
+#include "geometry/kernel/printable.h"
+#include "workbench/window/case/local_time.h"
+
+namespace vesselbench {
+
+namespace {
+
+constexpr std::size_t kLongestLine = 120, kLongestPin = 60;  ///< [bytes]
+
+std::string line_of(const std::string& reviewer, const std::string& text, std::size_t most) {
+    return printable(shortened(reviewer + ": " + text, most));
+}
+
+std::string remark_of(const GivenVerdict& given) {
+    const std::string text = given.comment.empty() ? to_string(given.verdict) : given.comment;
+    return line_of(given.reviewer, text, kLongestLine);
+}
+
+}  // namespace
+
+std::string pin_words(const GivenPin& pin) {
+    return line_of(pin.reviewer, pin.pin.text.empty() ? "pin" : pin.pin.text, kLongestPin) +
+           (pin.outdated ? " (outdated)" : "");
+}
+
+std::string verdict_words(const GivenVerdict& given) {
+    std::string words = printable(given.reviewer);
+    if (!given.role.empty()) words += ", " + printable(given.role);
+    words += ": " + to_string(given.verdict) + (given.outdated ? " (outdated)" : "");
+    return words + ", " + local_time(given.time, "%Y-%m-%d %H:%M");
+}
+
+std::string remark_of(const ReviewedEdit& edit) {
+    for (const GivenVerdict& given : edit.verdicts)
+        if (given.verdict == Verdict::Reject && !given.outdated) return remark_of(given);
+    return edit.verdicts.empty() ? "" : remark_of(edit.verdicts.front());
+}
+
+bool is_rejected(const ReviewedEdit& edit) {
+    return edit.status == ReviewStatus::Rejected || edit.status == ReviewStatus::Disputed;
+}
+
+}  // namespace vesselbench
