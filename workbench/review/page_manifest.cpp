@@ -193,21 +193,6 @@ Json edit_json(const LogEntry& entry, const ReviewedEdit* reviewed, const PageMo
     return json;
 }
 
-Json queue_json(const std::vector<QueueItem>& queue) {
-    Json rows = Json::array();
-    for (const QueueItem& item : queue) {
-        Json row = {{"kind", item.kind},
-                    {"edit", item.edit},
-                    {"title", item.title},
-                    {"why", item.why},
-                    {"score", item.score}};
-        if (item.place) row["place"] = point(*item.place);
-        if (item.radius) row["radius"] = *item.radius;
-        rows.push_back(std::move(row));
-    }
-    return rows;
-}
-
 /// The first file that the case was made from, with what its edit's report says of its resolution.
 Json source_json(const Session& session, const std::vector<LogEntry>& log) {
     for (const LogEntry& entry : log) {

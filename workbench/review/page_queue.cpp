@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <nlohmann/json.hpp>
+
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
 #include "workbench/case/diagnostic_words.h"
@@ -113,6 +115,21 @@ std::vector<QueueItem> review_queue(const std::vector<LogEntry>& log, const Page
     }
     std::ranges::stable_sort(queue, std::ranges::greater{}, &QueueItem::score);
     return queue;
+}
+
+nlohmann::ordered_json queue_json(const std::vector<QueueItem>& queue) {
+    nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+    for (const QueueItem& item : queue) {
+        nlohmann::ordered_json row = {{"kind", item.kind},
+                                      {"edit", item.edit},
+                                      {"title", item.title},
+                                      {"why", item.why},
+                                      {"score", item.score}};
+        if (item.place) row["place"] = {item.place->x(), item.place->y(), item.place->z()};
+        if (item.radius) row["radius"] = *item.radius;
+        rows.push_back(std::move(row));
+    }
+    return rows;
 }
 
 }  // namespace vesselbench

@@ -25,4 +25,8 @@ struct QueueItem {
                                                   const PageModels& models,
                                                   const OperationLookup& find);
 
+/// A list of {"kind", "edit", "title", "why", "score", "place", "radius"}; the last two where
+/// known.
+[[nodiscard]] nlohmann::ordered_json queue_json(const std::vector<QueueItem>& queue);
+
 }  // namespace vesselbench
