@@ -26,14 +26,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMostNumbers = 12;  ///< longer lists are counted
 
-const Operation* known(const OperationLookup& find, const std::string& name) {
-    try {
-        return &find(name);
-    } catch (const UsageError&) {  // of another version
-        return nullptr;
-    }
-}
-
 Json point(const Vec3& p) {
     return {p.x(), p.y(), p.z()};
 }
@@ -233,7 +225,7 @@ Json page_manifest(const Session& session, const std::string& variant,
     for (const LogEntry& entry : log) {
         const auto reviewed = std::ranges::find(review.edits, entry.edit.edit, &ReviewedEdit::edit);
         edits.push_back(edit_json(entry, reviewed == review.edits.end() ? nullptr : &*reviewed,
-                                  models, known(find, entry.edit.operation)));
+                                  models, known_operation(find, entry.edit.operation)));
     }
     for (const auto& [name, state] : models.neighbours)
         neighbours.push_back({{"name", name}, {"state", state}});

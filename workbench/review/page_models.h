@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "geometry/kernel/progress.h"
+#include "workbench/review/page_choices.h"
 #include "workbench/review/page_geometry.h"
+#include "workbench/review/page_wall.h"
 #include "workbench/session/session.h"
 
 namespace vesselbench {
@@ -19,6 +21,8 @@ struct PageEditModel {
     std::optional<Vec3> place;                 ///< of it [mm]
     Vec3 outward = Vec3::Zero();               ///< unit normal of the surface there
     std::optional<double> radius;              ///< of the vessel there, before the edit [mm]
+    std::optional<WallChange> wall;            ///< none: it has not moved
+    std::vector<OtherChoice> others;           ///< than the operation's own
     std::optional<Bounds> changed;             ///< box of what moved or is new [mm]
     std::string thumbnail;                     ///< a PNG file's bytes; empty: none
 };
@@ -30,8 +34,8 @@ struct PageModels {
     std::vector<std::pair<std::string, std::size_t>> neighbours;  ///< name, state
 };
 
-/// \param log of the variant, in order \throw what Session::result_scene() throws
+/// \param log of the variant, in order \param find of operations \throw what Session::result_scene() throws
 [[nodiscard]] PageModels page_models(Session& session, const std::vector<LogEntry>& log,
-                                     Progress progress = {});
+                                     const OperationLookup& find, Progress progress = {});
 
 }  // namespace vesselbench

@@ -10,7 +10,7 @@ namespace vesselbench {
 
 /// Something of a case that a reviewer should look at.
 struct QueueItem {
-    std::string kind;  ///< "deviation", "warning", "stale" or "decision"
+    std::string kind;  ///< "deviation", "choice", "warning", "stale" or "decision"
     EditId edit = 0;
     std::string title, why;        ///< in few words, and in all
     double score = 0.0;            ///< larger: earlier
