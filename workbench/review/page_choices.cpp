@@ -22,15 +22,29 @@ constexpr double kSameDirection = 2.0;
 constexpr double kMostTurn = 60.0;
 constexpr double kDegrees = 57.29577951308232;
 
-/// The arguments without those by which an author decides about ends: decisions, inlets, and its
-/// lists, which all name ends.
+/// An argument by which an author decides about ends: a decision, an inlet, or a list, which all
+/// name ends.
+bool decides(const Parameter& parameter) {
+    return parameter.use == Use::Decision || parameter.meaning == Meaning::Inlet ||
+           parameter.type == ParameterType::List;
+}
+
 Arguments undecided(const Operation& operation, const Arguments& given) {
     Arguments left = given;
     for (const Parameter& parameter : operation.parameters)
-        if (parameter.use == Use::Decision || parameter.meaning == Meaning::Inlet ||
-            parameter.type == ParameterType::List)
-            left.remove(parameter.name);
+        if (decides(parameter)) left.remove(parameter.name);
     return left;
+}
+
+ByHand decided_by_hand(const Operation& operation, const Arguments& given) {
+    ByHand by_hand;
+    for (const Parameter& parameter : operation.parameters) {
+        if (!given.has(parameter.name) || !decides(parameter)) continue;
+        const bool inlet = parameter.meaning == Meaning::Inlet || parameter.name == "inlet_ends";
+        if (parameter.use == Use::Decision) by_hand = {true, true, true};
+        (inlet ? by_hand.inlet : by_hand.ends) = true;
+    }
+    return by_hand;
 }
 
 Vec3 point_in(const Json& json) {
@@ -125,6 +139,18 @@ std::optional<OtherChoice> other_direction(const DecidedOpening& given, const De
                        .place = given.tip};
 }
 
+OtherChoice closed_end(const DecidedOpenings& own, const DecidedOpening& end, double widest) {
+    return {.what = end.name + " stays closed; the program would open it",
+            .doubt = odds_at(own.ends, end.tip) * width(end, widest),
+            .place = end.tip};
+}
+
+OtherChoice opened_end(const DecidedOpenings& own, const DecidedOpening& end, double widest) {
+    return {.what = end.name + " is opened; the program would leave it closed",
+            .doubt = (1.0 - odds_at(own.ends, end.tip)) * width(end, widest),
+            .place = end.tip};
+}
+
 }  // namespace
 
 const Operation* known_operation(const OperationLookup& find, const std::string& name) {
@@ -135,7 +161,8 @@ const Operation* known_operation(const OperationLookup& find, const std::string&
     }
 }
 
-std::vector<OtherChoice> compared(const DecidedOpenings& given, const DecidedOpenings& own) {
+std::vector<OtherChoice> compared(const DecidedOpenings& given, const DecidedOpenings& own,
+                                  const ByHand& by_hand) {
     const auto inlet = std::ranges::find_if(own.openings, &DecidedOpening::inlet);
     const DecidedOpening* entry = inlet == own.openings.end() ? nullptr : &*inlet;
     const double widest = entry == nullptr ? 0.0 : entry->diameter;
@@ -143,20 +170,17 @@ std::vector<OtherChoice> compared(const DecidedOpenings& given, const DecidedOpe
     for (const DecidedOpening& opening : own.openings) {
         const DecidedOpening* same = same_end(given.openings, opening);
         if (same == nullptr) {
-            others.push_back({.what = opening.name + " stays closed; the program would open it",
-                              .doubt = odds_at(own.ends, opening.tip) * width(opening, widest),
-                              .place = opening.tip});
+            if (by_hand.ends) others.push_back(closed_end(own, opening, widest));
             continue;
         }
-        if (same->inlet && !opening.inlet) others.push_back(other_inlet(opening, entry));
+        if (by_hand.inlet && same->inlet && !opening.inlet)
+            others.push_back(other_inlet(opening, entry));
+        if (!by_hand.directions) continue;
         if (const auto turned = other_direction(*same, opening)) others.push_back(*turned);
     }
     for (const DecidedOpening& opening : given.openings)
-        if (same_end(own.openings, opening) == nullptr)
-            others.push_back(
-                {.what = opening.name + " is opened; the program would leave it closed",
-                 .doubt = (1.0 - odds_at(own.ends, opening.tip)) * width(opening, widest),
-                 .place = opening.tip});
+        if (by_hand.ends && same_end(own.openings, opening) == nullptr)
+            others.push_back(opened_end(own, opening, widest));
     return others;
 }
 
@@ -167,7 +191,8 @@ std::vector<OtherChoice> other_choices(Session& session, const LogEntry& entry,
     if (left == entry.edit.given) return {};
     try {
         const Preview own = session.preview_change(entry.edit.edit.id, left, {}, progress);
-        return compared(decided_in(*entry.result), decided_in(own.result()));
+        return compared(decided_in(*entry.result), decided_in(own.result()),
+                        decided_by_hand(operation, entry.edit.given));
     } catch (const AlgorithmFailure&) {  // it would have asked
         return {};
     } catch (const UsageError&) {

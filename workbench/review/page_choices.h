@@ -49,7 +49,15 @@ struct DecidedOpenings {
     std::vector<JudgedEnd> ends;
 };
 
+/// What an author decided; all else the operation decided, perhaps on another surface.
+struct ByHand {
+    bool inlet = false;       ///< which opening is the inlet
+    bool ends = false;        ///< which ends are opened
+    bool directions = false;  ///< how they are cut
+};
+
+/// Where decisions differ in what was decided by hand.
 [[nodiscard]] std::vector<OtherChoice> compared(const DecidedOpenings& given,
-                                                const DecidedOpenings& own);
+                                                const DecidedOpenings& own, const ByHand& by_hand);
 
 }  // namespace vesselbench

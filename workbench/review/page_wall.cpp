@@ -1,9 +1,10 @@
 #include "workbench/review/page_wall.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
+
+#include "geometry/kernel/measure.h"
 
 namespace vesselbench {
 
@@ -11,8 +12,22 @@ namespace {
 
 /// Rays that measure a vessel start so far below its wall [mm].
 constexpr double kBelowWall = 1e-4;
-/// Tangent of the angle between the normal and the other rays that measure a radius.
-constexpr double kRayTilt = 0.35;
+/// A radius is measured on the triangles that are so near, by the longest edge of the nearest one.
+constexpr double kReach = 2.0;
+
+/// Half the way from a triangle's middle to the opposite wall.
+std::optional<double> radius_below(const Surface& surface, const SurfaceDistance& distance,
+                                   TriangleId t) {
+    const Triangle& triangle = surface.triangles()[t];
+    const Vec3 area = area_normal(surface.points(), triangle);
+    if (area.isZero() || surface.patch_of(t).kind != PatchKind::Wall) return std::nullopt;
+    Vec3 middle = Vec3::Zero();
+    for (const VertexId v : triangle) middle += surface.points()[v] / 3.0;
+    const Vec3 inward = -area.normalized();
+    const auto hit = distance.first_hit(middle + kBelowWall * inward, inward);
+    if (!hit || hit->distance <= 0.0) return std::nullopt;
+    return hit->distance / 2;
+}
 
 void take_largest(const Surface& surface, std::span<const double> values, WallChange& change) {
     const auto largest = std::ranges::max_element(values);
@@ -32,17 +47,10 @@ double mean_square(std::span<const double> values) {
 std::optional<double> radius_near(const Surface& surface, const SurfaceDistance& distance,
                                   const Vec3& place) {
     const SurfacePoint wall = distance.closest_point(place);
-    const Vec3 area = area_normal(surface.points(), surface.triangles()[wall.triangle]);
-    if (area.isZero()) return std::nullopt;
-    const Vec3 inward = -area.normalized();
-    const Vec3 side = inward.unitOrthogonal(), up = inward.cross(side);
+    const double edge = longest_edge(surface.points(), surface.triangles()[wall.triangle]);
     std::vector<double> radii;
-    for (const Vec3& tilt : std::array<Vec3, 5>{Vec3::Zero(), side, Vec3(-side), up, Vec3(-up)}) {
-        const Vec3 along = (inward + kRayTilt * tilt).normalized();
-        const auto hit = distance.first_hit(wall.point + kBelowWall * inward, along);
-        // a chord of a circle is as much shorter than its diameter as its direction is tilted
-        if (hit && hit->distance > 0.0) radii.push_back(hit->distance / 2 / along.dot(inward));
-    }
+    for (const TriangleId t : distance.triangles_within(wall.point, kReach * edge))
+        if (const auto radius = radius_below(surface, distance, t)) radii.push_back(*radius);
     if (radii.empty()) return std::nullopt;
     const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
     std::ranges::nth_element(radii, middle);

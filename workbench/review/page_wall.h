@@ -17,8 +17,8 @@ struct WallChange {
     std::optional<double> radius;  ///< of the vessel there, before the edit [mm]
 };
 
-/// Half the way from a place of the wall to the opposite wall; the median over a few directions,
-/// as a single ray may run along a neighbouring vessel. [mm]; empty: no wall is opposite.
+/// Half the way to the opposite wall [mm]: the median over the triangles around a place, as a
+/// single ray may start in a crease. Empty: no wall is opposite.
 /// \param surface that `distance` was made of
 [[nodiscard]] std::optional<double> radius_near(const Surface& surface,
                                                 const SurfaceDistance& distance, const Vec3& place);
