@@ -141,6 +141,25 @@ def dabs(places, vessel, radius, strength):
                                   "radius": radius, "strength": strength} for point, normal in places])
 
 
+def coordinates(point):
+    return ",".join("%.6g" % x for x in point)
+
+
+def planes_and_names(clip):
+    return list(zip(clip["resolved"]["planes"], clip["resolved"]["names"]))
+
+
+def choose_inlet(project, clip, plane):
+    """Changes the clipping's inlet; where the program then asks about another end, its likelier fate is taken."""
+    for doubts in ([], ["accept_doubts=true"]):
+        try:
+            project.change(clip["edit"], "inlet=" + coordinates(plane["point"]), *doubts)
+            return True
+        except RuntimeError:
+            continue
+    return False
+
+
 # --- honest edits ----------------------------------------------------------------------------------------------------
 def add_honest(project, wall, chance):
     """What an operator does beside the recipe. Those in early steps make later ones run again."""
@@ -154,7 +173,7 @@ def add_honest(project, wall, chance):
     if chance.random() < 0.5:  # says what the program chose as well
         clip = project.clipping()
         if own := [p for p, n in planes_and_names(clip) if n["kind"] == "inlet"]:
-            project.change(clip["edit"], "inlet=" + coordinates(own[0]["point"]))
+            choose_inlet(project, clip, own[0])
     project.apply("smooth", "filter=taubin", f"iterations={chance.randint(3, 8)}", "find_caps=false")
     if chance.random() < 0.5:
         project.apply("decimate", f"share={chance.uniform(0.8, 0.95):.3f}")
@@ -165,14 +184,6 @@ def add_honest(project, wall, chance):
 
 
 # --- wrong edits -----------------------------------------------------------------------------------------------------
-def coordinates(point):
-    return ",".join("%.6g" % x for x in point)
-
-
-def planes_and_names(clip):
-    return list(zip(clip["resolved"]["planes"], clip["resolved"]["names"]))
-
-
 def number(project):
     """Of the edit that was made last."""
     return max(edit["edit"] for edit in project.edits())
@@ -205,7 +216,7 @@ def plant_branch(project, wall, chance):
 
 
 def plant_tilt(project, wall, chance):
-    """The cap's plane is moved half a radius inward, so that it is all in the vessel, and turned about a random axis."""
+    """The cap's plane is moved half a radius inward, so that it is in the vessel, and turned about a random axis."""
     clip = project.clipping()
     planes = clip["resolved"]["planes"]
     measured = {opening["name"]: opening for opening in clip["report"]["openings"]}
@@ -236,11 +247,8 @@ def plant_inlet(project, wall, chance):
     clip = project.clipping()
     outlets = [plane for plane, name in planes_and_names(clip) if name["kind"] == "outlet"]
     for plane in chance.sample(outlets, len(outlets)):
-        try:
-            project.change(clip["edit"], "inlet=" + coordinates(plane["point"]))
+        if choose_inlet(project, clip, plane):
             return clip["edit"]
-        except RuntimeError:
-            continue
     return None
 
 

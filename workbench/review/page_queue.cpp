@@ -20,7 +20,8 @@ constexpr double kPerRadius = 10.0;
 constexpr double kStale = 100.0, kFurtherStale = 1.4;
 constexpr double kWarning = 1.0, kPlacedWarning = 1.25, kDecision = 0.3;
 constexpr double kMostShare = 5.0;  ///< of a radius: larger changes are as urgent
-/// A person overruled what the program measured: that weighs more than a change of the same size.
+/// A person chose the place of a change, or overruled what the program measured: that weighs more
+/// than a change of the same size that an operation makes by itself.
 constexpr double kByHand = 2.0;
 /// A change smaller than this share of the radius is not listed by itself.
 constexpr double kLeastShare = 0.05;
@@ -55,7 +56,19 @@ double unusual(const WallChange& wall, double radius) {
     return (wall.largest - spread + kSpreadWeight * spread) / radius;
 }
 
-void add_deviation(const LogEntry& entry, const PageModels& models, std::vector<QueueItem>& queue) {
+/// Where it works was chosen by a person, not found by the operation.
+bool is_placed_by_hand(const LogEntry& entry, const Operation* operation) {
+    using enum Meaning;
+    return operation != nullptr &&
+           std::ranges::any_of(operation->parameters, [&](const Parameter& parameter) {
+               const Meaning meaning = parameter.meaning;
+               return entry.edit.given.has(parameter.name) &&
+                      (meaning == Dabs || meaning == Place || meaning == Branch);
+           });
+}
+
+void add_deviation(const LogEntry& entry, const Operation* operation, const PageModels& models,
+                   std::vector<QueueItem>& queue) {
     const auto found = models.edits.find(entry.edit.edit.id);
     if (found == models.edits.end() || !found->second.before || !found->second.wall) return;
     const WallChange& wall = *found->second.wall;
@@ -64,9 +77,10 @@ void add_deviation(const LogEntry& entry, const PageModels& models, std::vector<
     if (radius <= 0.0 || wall.largest < kLeastShare * radius) return;
     std::string why = "The wall differs by up to " + formatted(wall.largest, "%.3g mm");
     if (wall.radius) why += ", where the vessel's radius is " + formatted(radius, "%.3g mm");
-    QueueItem item =
-        item_of("deviation", entry, kPerRadius * std::min(unusual(wall, radius), kMostShare),
-                "Differs by up to " + formatted(wall.largest, "%.3g mm"), why);
+    const double by_hand = is_placed_by_hand(entry, operation) ? kByHand : 1.0;
+    QueueItem item = item_of("deviation", entry,
+                             kPerRadius * by_hand * std::min(unusual(wall, radius), kMostShare),
+                             "Differs by up to " + formatted(wall.largest, "%.3g mm"), why);
     item.place = wall.place;
     item.radius = wall.radius;
     queue.push_back(std::move(item));
@@ -121,11 +135,12 @@ std::vector<QueueItem> review_queue(const std::vector<LogEntry>& log, const Page
                                     const OperationLookup& find) {
     std::vector<QueueItem> queue;
     for (const LogEntry& entry : log) {
+        const Operation* operation = known_operation(find, entry.edit.operation);
         add_stale(entry, queue);
-        add_deviation(entry, models, queue);
+        add_deviation(entry, operation, models, queue);
         add_choices(entry, models, queue);
         add_warnings(entry, queue);
-        add_decisions(entry, known_operation(find, entry.edit.operation), queue);
+        add_decisions(entry, operation, queue);
     }
     std::ranges::stable_sort(queue, std::ranges::greater{}, &QueueItem::score);
     return queue;
