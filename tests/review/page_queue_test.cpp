@@ -87,3 +87,18 @@ SCENARIO("The queue as JSON has what a reviewer reads", "[review]") {
     for (const char* key : {"kind", "edit", "title", "why", "score", "place", "radius"})
         CHECK(json[0].contains(key));
 }
+
+SCENARIO("A change whose place a person chose comes before one of an operation", "[review]") {
+    Operation brush = find_test_operation("bump");
+    brush.name = "brush";
+    brush.parameters.push_back(
+        {.name = "dabs", .type = ParameterType::Records, .meaning = Meaning::Dabs});
+    LogEntry painted = done(2);
+    painted.edit.operation = "brush";
+    painted.edit.given = {{"dabs", Records{}}};
+    const auto find = [&](const std::string& name) -> const Operation& {
+        return name == "brush" ? brush : find_test_operation(name);
+    };
+    const PageModels models = models_of({{1, moved(0.2, 0.01)}, {2, moved(0.2, 0.01)}});
+    CHECK(review_queue({done(1), painted}, models, find).front().edit == 2);
+}

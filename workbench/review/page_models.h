@@ -34,7 +34,9 @@ struct PageModels {
     std::vector<std::pair<std::string, std::size_t>> neighbours;  ///< name, state
 };
 
-/// \param log of the variant, in order \param find of operations \throw what Session::result_scene() throws
+/// \param log of the variant, in order
+/// \param find of operations
+/// \throw what Session::result_scene() throws
 [[nodiscard]] PageModels page_models(Session& session, const std::vector<LogEntry>& log,
                                      const OperationLookup& find, Progress progress = {});
 
