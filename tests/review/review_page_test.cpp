@@ -35,7 +35,7 @@ SCENARIO("The page's manifest has every edit with its surfaces, arguments and fi
          "[review]") {
     Session session = opened(reviewed_project());
     const auto log = session.log(kDefaultVariant);
-    const PageModels models = page_models(session, log);
+    const PageModels models = page_models(session, log, find_test_operation);
     const Json page = page_manifest(session, kDefaultVariant, log, models, PageImages::Contours,
                                     find_test_operation);
     CHECK(page["format"] == "vesselbench-review");
@@ -62,7 +62,7 @@ SCENARIO("The page's manifest has every edit with its surfaces, arguments and fi
 SCENARIO("What deserves a look comes first", "[review]") {
     Session session = opened(reviewed_project());
     const auto log = session.log(kDefaultVariant);
-    const PageModels models = page_models(session, log);
+    const PageModels models = page_models(session, log, find_test_operation);
     const auto queue = review_queue(log, models, find_test_operation);
     CHECK(std::ranges::is_sorted(queue, std::ranges::greater{}, &QueueItem::score));
     for (const QueueItem& item : queue) {

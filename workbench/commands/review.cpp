@@ -15,6 +15,7 @@
 #include "workbench/commands/console.h"
 #include "workbench/operations/table.h"
 #include "workbench/project/project.h"
+#include "workbench/review/page_queue.h"
 #include "workbench/review/review_page.h"
 #include "workbench/review/statement.h"
 #include "workbench/session/edit_place.h"
@@ -69,6 +70,15 @@ void write_page(Session& session, const ReviewArguments& arguments, const Progre
            formatted(static_cast<double>(page.size()) / 1e6, "%.1f MB"));
 }
 
+/// What a reviewer should look at first, as the page lists it.
+Json queue_of(Session& session, const std::string& variant_asked, const Progress& progress) {
+    const std::string variant = variant_meant(variant_asked, *session.snapshot()->history);
+    const std::vector<LogEntry> log = session.log(variant);
+    return queue_json(
+        review_queue(log, page_models(session, log, find_operation, PageImages::None, progress),
+                     find_operation));
+}
+
 }  // namespace
 
 void review_project(const ReviewArguments& arguments, const Progress& progress) {
@@ -91,6 +101,7 @@ void review_project(const ReviewArguments& arguments, const Progress& progress) 
                  {"head", session.project().record_head()},
                  {"imported", imported}};
     json.update(review_json(review));
+    json["queue"] = queue_of(session, arguments.variant, progress);
     std::cout << text_from_json(json, 2) << "\n";
 }
 

@@ -26,14 +26,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMostNumbers = 12;  ///< longer lists are counted
 
-const Operation* known(const OperationLookup& find, const std::string& name) {
-    try {
-        return &find(name);
-    } catch (const UsageError&) {  // of another version
-        return nullptr;
-    }
-}
-
 Json point(const Vec3& p) {
     return {p.x(), p.y(), p.z()};
 }
@@ -194,21 +186,6 @@ Json edit_json(const LogEntry& entry, const ReviewedEdit* reviewed, const PageMo
     return json;
 }
 
-Json queue_json(const std::vector<QueueItem>& queue) {
-    Json rows = Json::array();
-    for (const QueueItem& item : queue) {
-        Json row = {{"kind", item.kind},
-                    {"edit", item.edit},
-                    {"title", item.title},
-                    {"why", item.why},
-                    {"score", item.score}};
-        if (item.place) row["place"] = point(*item.place);
-        if (item.radius) row["radius"] = *item.radius;
-        rows.push_back(std::move(row));
-    }
-    return rows;
-}
-
 /// The first file that the case was made from, with what its edit's report says of its resolution.
 Json source_json(const Session& session, const std::vector<LogEntry>& log) {
     for (const LogEntry& entry : log) {
@@ -258,7 +235,7 @@ Json page_manifest(const Session& session, const std::string& variant,
     for (const LogEntry& entry : log) {
         const auto reviewed = std::ranges::find(review.edits, entry.edit.edit, &ReviewedEdit::edit);
         edits.push_back(edit_json(entry, reviewed == review.edits.end() ? nullptr : &*reviewed,
-                                  models, known(find, entry.edit.operation)));
+                                  models, known_operation(find, entry.edit.operation)));
     }
     for (const auto& [name, state] : models.neighbours)
         neighbours.push_back({{"name", name}, {"state", state}});

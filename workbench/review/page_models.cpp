@@ -13,18 +13,8 @@ namespace vesselbench {
 
 namespace {
 
-/// Rays that measure a vessel start so far below its wall [mm].
-constexpr double kBelowWall = 1e-4;
 /// A vertex that is nearer to the surface before has not moved [mm].
 constexpr double kUnmoved = 1e-4;
-
-/// Half the way to the opposite wall.
-std::optional<double> radius_at(const SurfaceDistance& surface, const Vec3& place,
-                                const Vec3& outward) {
-    const auto hit = surface.first_hit(place - kBelowWall * outward, -outward);
-    if (!hit || hit->distance <= 0.0) return std::nullopt;
-    return hit->distance / 2;
-}
 
 /// A surface among those of the page.
 struct ShownSurface {
@@ -32,8 +22,9 @@ struct ShownSurface {
     PageGeometry::State state;
 };
 
-/// Distances of a surface's vertices from another one; 0 for those that the two share.
-std::vector<double> deviations(const ShownSurface& of, const ShownSurface& from) {
+/// The points of another surface that are closest to a surface's vertices; at distance 0 for those
+/// that the two share.
+std::vector<SurfacePoint> closest_points(const ShownSurface& of, const ShownSurface& from) {
     std::vector<std::size_t> own;
     std::vector<Vec3> points;
     for (std::size_t v = 0; v < of.state.vertices.size(); ++v) {
@@ -41,9 +32,15 @@ std::vector<double> deviations(const ShownSurface& of, const ShownSurface& from)
         own.push_back(v);
         points.push_back(of.surface.points()[v]);
     }
-    const std::vector<SurfacePoint> closest = distance_to(from.surface).closest_points(points);
-    std::vector<double> values(of.surface.vertex_count(), 0.0);
-    for (std::size_t i = 0; i < own.size(); ++i) values[own[i]] = closest[i].distance;
+    const std::vector<SurfacePoint> found = distance_to(from.surface).closest_points(points);
+    std::vector<SurfacePoint> closest(of.surface.vertex_count(), SurfacePoint{.distance = 0.0});
+    for (std::size_t i = 0; i < own.size(); ++i) closest[own[i]] = found[i];
+    return closest;
+}
+
+std::vector<double> distances(const std::vector<SurfacePoint>& closest) {
+    std::vector<double> values;
+    for (const SurfacePoint& point : closest) values.push_back(point.distance);
     return values;
 }
 
@@ -62,14 +59,6 @@ void take_largest(const Surface& surface, const std::vector<double>& values, Pag
     model.outward = (*vertex_normals_of(surface))[vertex];
 }
 
-std::optional<double> radius_near(const Surface& surface, const Vec3& place) {
-    const SurfaceDistance distance = distance_to(surface);
-    const SurfacePoint wall = distance.closest_point(place);
-    const Vec3 outward = area_normal(surface.points(), surface.triangles()[wall.triangle]);
-    if (outward.isZero()) return std::nullopt;
-    return radius_at(distance, wall.point, outward.normalized());
-}
-
 /// What was added is in another colour; seen from where most has changed.
 void draw_thumbnail(const Surface& surface, std::span<const double> gained, PageEditModel& model) {
     model.thumbnail = thumbnail_png(surface, gained, model.outward);
@@ -78,7 +67,9 @@ void draw_thumbnail(const Surface& surface, std::span<const double> gained, Page
 /// What was added is seen on the surface after the edit, what was lost on the one before it.
 void add_difference(PageGeometry& geometry, const ShownSurface& before, const ShownSurface& after,
                     PageEditModel& model) {
-    const std::vector<double> gained = deviations(after, before), lost = deviations(before, after);
+    const std::vector<SurfacePoint> behind = closest_points(after, before),
+                                    ahead = closest_points(before, after);
+    const std::vector<double> gained = distances(behind), lost = distances(ahead);
     Positions moved;
     add_moved(after.surface, gained, moved);
     add_moved(before.surface, lost, moved);
@@ -88,7 +79,11 @@ void add_difference(PageGeometry& geometry, const ShownSurface& before, const Sh
     model.deviation["measure"] = "distance from the surface before the edit";
     take_largest(after.surface, gained, model);
     take_largest(before.surface, lost, model);
-    if (model.place) model.radius = radius_near(before.surface, *model.place);
+    if (model.place)
+        model.radius = radius_near(before.surface, distance_to(before.surface), *model.place);
+    model.wall = wall_change(before.surface, wall_deviations(before.surface, after.surface, ahead),
+                             after.surface, wall_deviations(after.surface, before.surface, behind),
+                             kUnmoved);
     draw_thumbnail(after.surface, gained, model);
 }
 
@@ -140,8 +135,8 @@ void add_slices(const Image& image, PageModels& models) {
 
 }  // namespace
 
-PageModels page_models(Session& session, const std::vector<LogEntry>& log, PageImages images,
-                       Progress progress) {
+PageModels page_models(Session& session, const std::vector<LogEntry>& log,
+                       const OperationLookup& find, PageImages images, Progress progress) {
     Scene last;
     const std::vector<ShownEdit> shown = surfaces_of(session, log, last, progress);
     const auto& neighbours = last.neighbours;
@@ -163,6 +158,10 @@ PageModels page_models(Session& session, const std::vector<LogEntry>& log, PageI
     if (images == PageImages::Slices && last.image) add_slices(*last.image, models);
     for (const auto& [name, surface] : neighbours)
         models.neighbours.emplace_back(name, models.geometry.add(surface).number);
+    for (const LogEntry& entry : log)
+        if (const Operation* operation = known_operation(find, entry.edit.operation))
+            if (auto others = other_choices(session, entry, *operation, progress); !others.empty())
+                models.edits[entry.edit.edit.id].others = std::move(others);
     return models;
 }
 

@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "geometry/kernel/progress.h"
+#include "workbench/review/page_choices.h"
 #include "workbench/review/page_geometry.h"
+#include "workbench/review/page_wall.h"
 #include "workbench/session/session.h"
 
 namespace vesselbench {
@@ -27,6 +29,8 @@ struct PageEditModel {
     std::optional<Vec3> place;                 ///< of it [mm]
     Vec3 outward = Vec3::Zero();               ///< unit normal of the surface there
     std::optional<double> radius;              ///< of the vessel there, before the edit [mm]
+    std::optional<WallChange> wall;            ///< none: it has not moved
+    std::vector<OtherChoice> others;           ///< than the operation's own
     std::optional<Bounds> changed;             ///< box of what moved or is new [mm]
     std::string thumbnail;                     ///< a PNG file's bytes; empty: none
     nlohmann::ordered_json slices = nlohmann::ordered_json::array();
@@ -40,8 +44,11 @@ struct PageModels {
     std::map<std::string, std::string> slices;                    ///< blobs of the edits' slices
 };
 
-/// \param log of the variant, in order \throw what Session::result_scene() throws
+/// \param log of the variant, in order
+/// \param find of operations
+/// \throw what Session::result_scene() throws
 [[nodiscard]] PageModels page_models(Session& session, const std::vector<LogEntry>& log,
+                                     const OperationLookup& find,
                                      PageImages images = PageImages::Contours,
                                      Progress progress = {});
 

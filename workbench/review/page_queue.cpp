@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <nlohmann/json.hpp>
+
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
 #include "workbench/case/diagnostic_words.h"
@@ -12,30 +14,21 @@ namespace vesselbench {
 
 namespace {
 
-/// Scores by kind: a stale edit leaves a model unfinished; a change of a whole radius is as urgent
-/// as a warning; a decision without a doubt can wait.
-constexpr double kStale = 100.0, kWarning = 10.0, kPlacedWarning = 12.0, kDecision = 1.0;
+/// All scores are in tenths of a radius: a warning is as urgent as a change of the wall by a tenth
+/// or, with a place, an eighth of the radius; a decision without a doubt can wait.
 constexpr double kPerRadius = 10.0;
+constexpr double kStale = 100.0, kFurtherStale = 1.4;
+constexpr double kWarning = 1.0, kPlacedWarning = 1.25, kDecision = 0.3;
 constexpr double kMostShare = 5.0;  ///< of a radius: larger changes are as urgent
+/// A person chose the place of a change, or overruled what the program measured: that weighs more
+/// than a change of the same size that an operation makes by itself.
+constexpr double kByHand = 2.0;
 /// A change smaller than this share of the radius is not listed by itself.
 constexpr double kLeastShare = 0.05;
-/// Of a change that the operation is for: cuts and extensions of ends, cut branches. Their size
-/// says little, their place is still worth a look.
-constexpr double kMeantShare = 0.3;
-
-const Operation* known(const OperationLookup& find, const std::string& name) {
-    try {
-        return &find(name);
-    } catch (const UsageError&) {  // of another version
-        return nullptr;
-    }
-}
-
-/// Edits of these steps add or remove whole parts by their nature.
-bool is_meant_to_move_much(const LogEntry& entry) {
-    const Step step = entry.edit.place.step;
-    return step == Step::Openings || step == Step::Product || step == Step::Source;
-}
+/// The largest of many deviations of one kind is about so many times their root mean square.
+constexpr double kUsualPeak = 3.0;
+/// What an operation does all over the wall is what it is for.
+constexpr double kSpreadWeight = 0.5;
 
 QueueItem item_of(const char* kind, const LogEntry& entry, double score, std::string title,
                   std::string why) {
@@ -48,26 +41,62 @@ QueueItem item_of(const char* kind, const LogEntry& entry, double score, std::st
             .radius = {}};
 }
 
+/// The first one is the cause of others behind it as often as not.
 void add_stale(const LogEntry& entry, std::vector<QueueItem>& queue) {
     if (entry.status != EditStatus::Stale) return;
-    queue.push_back(item_of("stale", entry, kStale, "No longer applies",
+    const bool further = std::ranges::count(queue, "stale", &QueueItem::kind) > 0;
+    queue.push_back(item_of("stale", entry, further ? kFurtherStale : kStale, "No longer applies",
                             "It no longer applies and was skipped: " + entry.reason));
 }
 
-void add_deviation(const LogEntry& entry, const PageModels& models, std::vector<QueueItem>& queue) {
+/// How much a change of the wall is out of the ordinary: what stands out of what the operation does
+/// all over the wall, in radii; that in turn counts by kSpreadWeight.
+double unusual(const WallChange& wall, double radius) {
+    const double spread = std::min(kUsualPeak * wall.usual, wall.largest);
+    return (wall.largest - spread + kSpreadWeight * spread) / radius;
+}
+
+/// Where it works was chosen by a person, not found by the operation.
+bool is_placed_by_hand(const LogEntry& entry, const Operation* operation) {
+    using enum Meaning;
+    return operation != nullptr &&
+           std::ranges::any_of(operation->parameters, [&](const Parameter& parameter) {
+               const Meaning meaning = parameter.meaning;
+               return entry.edit.given.has(parameter.name) &&
+                      (meaning == Dabs || meaning == Place || meaning == Branch);
+           });
+}
+
+void add_deviation(const LogEntry& entry, const Operation* operation, const PageModels& models,
+                   std::vector<QueueItem>& queue) {
     const auto found = models.edits.find(entry.edit.edit.id);
-    if (found == models.edits.end() || !found->second.before || !found->second.place) return;
-    const PageEditModel& model = found->second;
-    const double radius = model.radius.value_or(0.0);
-    const double share = radius > 0.0 ? model.largest / radius : 1.0;
-    if (share < kLeastShare) return;
-    const double meant = is_meant_to_move_much(entry) ? kMeantShare : 1.0;
-    std::string why = "The surface differs by up to " + formatted(model.largest, "%.3g mm");
-    if (radius > 0.0) why += ", where the vessel's radius is " + formatted(radius, "%.3g mm");
-    QueueItem item = item_of("deviation", entry, kPerRadius * meant * std::min(share, kMostShare),
-                             "Differs by up to " + formatted(model.largest, "%.3g mm"), why);
-    item.place = model.place;
-    item.radius = model.radius;
+    if (found == models.edits.end() || !found->second.before || !found->second.wall) return;
+    const WallChange& wall = *found->second.wall;
+    // without an opposite wall, as a sheet has none, the size of what changed is all there is
+    const double radius = wall.radius.value_or(found->second.changed->diagonal() / 2);
+    if (radius <= 0.0 || wall.largest < kLeastShare * radius) return;
+    std::string why = "The wall differs by up to " + formatted(wall.largest, "%.3g mm");
+    if (wall.radius) why += ", where the vessel's radius is " + formatted(radius, "%.3g mm");
+    const double by_hand = is_placed_by_hand(entry, operation) ? kByHand : 1.0;
+    QueueItem item = item_of("deviation", entry,
+                             kPerRadius * by_hand * std::min(unusual(wall, radius), kMostShare),
+                             "Differs by up to " + formatted(wall.largest, "%.3g mm"), why);
+    item.place = wall.place;
+    item.radius = wall.radius;
+    queue.push_back(std::move(item));
+}
+
+/// All of an edit are one item, as urgent as the worst of them.
+void add_choices(const LogEntry& entry, const PageModels& models, std::vector<QueueItem>& queue) {
+    const auto found = models.edits.find(entry.edit.edit.id);
+    if (found == models.edits.end() || found->second.others.empty()) return;
+    const std::vector<OtherChoice>& others = found->second.others;
+    const auto worst = std::ranges::max_element(others, {}, &OtherChoice::doubt);
+    std::vector<std::string> texts;
+    for (const OtherChoice& other : others) texts.push_back(readable_sentence(other.what));
+    QueueItem item = item_of("choice", entry, kPerRadius * kByHand * worst->doubt,
+                             "Decided otherwise by hand", joined(texts, "; "));
+    item.place = worst->place;
     queue.push_back(std::move(item));
 }
 
@@ -106,13 +135,30 @@ std::vector<QueueItem> review_queue(const std::vector<LogEntry>& log, const Page
                                     const OperationLookup& find) {
     std::vector<QueueItem> queue;
     for (const LogEntry& entry : log) {
+        const Operation* operation = known_operation(find, entry.edit.operation);
         add_stale(entry, queue);
-        add_deviation(entry, models, queue);
+        add_deviation(entry, operation, models, queue);
+        add_choices(entry, models, queue);
         add_warnings(entry, queue);
-        add_decisions(entry, known(find, entry.edit.operation), queue);
+        add_decisions(entry, operation, queue);
     }
     std::ranges::stable_sort(queue, std::ranges::greater{}, &QueueItem::score);
     return queue;
+}
+
+nlohmann::ordered_json queue_json(const std::vector<QueueItem>& queue) {
+    nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+    for (const QueueItem& item : queue) {
+        nlohmann::ordered_json row = {{"kind", item.kind},
+                                      {"edit", item.edit},
+                                      {"title", item.title},
+                                      {"why", item.why},
+                                      {"score", item.score}};
+        if (item.place) row["place"] = {item.place->x(), item.place->y(), item.place->z()};
+        if (item.radius) row["radius"] = *item.radius;
+        rows.push_back(std::move(row));
+    }
+    return rows;
 }
 
 }  // namespace vesselbench

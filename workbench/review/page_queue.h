@@ -10,7 +10,7 @@ namespace vesselbench {
 
 /// Something of a case that a reviewer should look at.
 struct QueueItem {
-    std::string kind;  ///< "deviation", "warning", "stale" or "decision"
+    std::string kind;  ///< "deviation", "choice", "warning", "stale" or "decision"
     EditId edit = 0;
     std::string title, why;        ///< in few words, and in all
     double score = 0.0;            ///< larger: earlier
@@ -24,5 +24,9 @@ struct QueueItem {
 [[nodiscard]] std::vector<QueueItem> review_queue(const std::vector<LogEntry>& log,
                                                   const PageModels& models,
                                                   const OperationLookup& find);
+
+/// A list of {"kind", "edit", "title", "why", "score", "place", "radius"}; the last two where
+/// known.
+[[nodiscard]] nlohmann::ordered_json queue_json(const std::vector<QueueItem>& queue);
 
 }  // namespace vesselbench

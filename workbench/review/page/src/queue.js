@@ -1,7 +1,7 @@
 /** The list at the left: what to look at first, or all edits by step. Walked by keys, one entry is current. */
 import { fill, foreign, make } from './text.js';
 
-const KINDS = { deviation: 'Large change', warning: 'Warning', stale: 'No longer applies', decision: 'Decided by program', finding: 'Finding' };
+const KINDS = { deviation: 'Large change', warning: 'Warning', stale: 'No longer applies', choice: 'Decided by hand', decision: 'Decided by program', finding: 'Finding' };
 const VERDICT = { accept: 'accepted', reject: 'rejected', unsure: 'unsure', none: 'open' };
 const SIGN = { accept: '✓', reject: '✗', unsure: '?', none: '○' };
 

@@ -55,7 +55,9 @@ void ReviewFeature::find_queue() {
     const auto find = [found, variant = core_.document.variant()](Session& session,
                                                                   const Progress& progress) {
         const std::vector<LogEntry> log = session.log(variant);
-        *found = review_queue(log, page_models(session, log, progress), find_operation);
+        *found =
+            review_queue(log, page_models(session, log, find_operation, PageImages::None, progress),
+                         find_operation);
         return make_message(MessageKind::Success,
                             found->empty() ? "Nothing stands out in the edits"
                                            : counted(found->size(), "thing") + " to look at first");
@@ -192,7 +194,7 @@ void ReviewFeature::write_page(const std::filesystem::path& file) {
     core_.document.write_text(
         file, {.what = "Writing the review page", .kind = RequestKind::Output},
         [variant = core_.document.variant()](Session& session, const Progress& progress) {
-            return review_page(session, variant, find_operation, progress);
+            return review_page(session, variant, find_operation, PageImages::Contours, progress);
         });
 }
 
