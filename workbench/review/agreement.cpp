@@ -1,6 +1,7 @@
 #include "workbench/review/agreement.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <random>
 
@@ -31,7 +32,7 @@ std::vector<RatedUnit> pairable(const std::vector<RatedUnit>& units) {
 /// \param share of the sorted values below it [-]
 double percentile(const std::vector<double>& sorted, double share) {
     const auto last = static_cast<double>(sorted.size() - 1);
-    return sorted[static_cast<std::size_t>(share * last + 0.5)];
+    return sorted[static_cast<std::size_t>(std::lround(share * last))];
 }
 
 }  // namespace
