@@ -42,6 +42,11 @@ std::vector<std::string> purpose_names() {
     return names;
 }
 
+std::string model_title(const std::string& variant) {
+    const auto purpose = std::ranges::find(purposes(), variant, &Purpose::name);
+    return purpose == purposes().end() ? variant : purpose->title;
+}
+
 const Purpose& find_purpose(const std::string& name) {
     const auto found = std::ranges::find(purposes(), name, &Purpose::name);
     if (found != purposes().end()) return *found;

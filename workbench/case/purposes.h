@@ -23,6 +23,9 @@ struct Purpose {
 
 [[nodiscard]] std::vector<std::string> purpose_names();
 
+/// The model that a variant is: a purpose's title; a variant of the user's is called by its name.
+[[nodiscard]] std::string model_title(const std::string& variant);
+
 /// \throw UsageError that lists the purposes if there is none of this name
 [[nodiscard]] const Purpose& find_purpose(const std::string& name);
 

@@ -74,9 +74,8 @@ void write_page(Session& session, const ReviewArguments& arguments, const Progre
 Json queue_of(Session& session, const std::string& variant_asked, const Progress& progress) {
     const std::string variant = variant_meant(variant_asked, *session.snapshot()->history);
     const std::vector<LogEntry> log = session.log(variant);
-    return queue_json(
-        review_queue(log, page_models(session, log, find_operation, PageImages::None, progress),
-                     find_operation));
+    return queue_json(review_queue(
+        log, page_models(session, log, find_operation, kQueueOnly, progress), find_operation));
 }
 
 }  // namespace

@@ -83,16 +83,17 @@ std::string change_text(const SurfaceChange& change) {
     return text_of(change, {});
 }
 
+Json reported(const ResultRecord& result) {
+    Json report = Json::parse(result.report, nullptr, false);
+    return report.is_object() ? report : Json::object();
+}
+
 std::string effect_text(const ResultRecord& result) {
+    const Json report = reported(result);
     std::string text;
-    std::optional<double> distance;
-    if (!result.report.empty()) {
-        const Json report = Json::parse(result.report, nullptr, false);
-        distance = reported_distance(report);
-        if (report.is_object() && report.contains("headline") && report["headline"].is_string())
-            text = report["headline"].get<std::string>();
-    }
-    const std::string change = text_of(result.change, distance);
+    if (report.contains("headline") && report["headline"].is_string())
+        text = report["headline"].get<std::string>();
+    const std::string change = text_of(result.change, reported_distance(report));
     if (!change.empty()) add_part(text, change);
     return text;
 }

@@ -10,6 +10,9 @@ namespace vesselbench {
 /// time, duration, note, warnings (their texts, and as diagnostics), and what it changed.
 [[nodiscard]] nlohmann::ordered_json log_json(const LogEntry& entry);
 
+/// What an operation reported of its result: a JSON object; empty if it is none.
+[[nodiscard]] nlohmann::ordered_json reported(const ResultRecord& result);
+
 /// One line: "volume -2.1 %, moved up to 0.31 mm, 12,400 -> 9,800 triangles"; empty if nothing
 /// changed.
 [[nodiscard]] std::string change_text(const SurfaceChange& change);

@@ -9,6 +9,7 @@
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
+#include "workbench/report/log_json.h"
 
 namespace vesselbench {
 
@@ -86,8 +87,7 @@ DecidedOpenings decided_in(const ResultRecord& result) {
                                     .inlet = names[i].is_word("kind", "inlet"),
                                     .tip = planes[i].point("tip"),
                                     .normal = planes[i].point("normal")});
-    const Json report = Json::parse(result.report, nullptr, false);
-    if (report.is_object()) add_figures(report, decided);
+    add_figures(reported(result), decided);
     return decided;
 }
 
@@ -152,14 +152,6 @@ OtherChoice opened_end(const DecidedOpenings& own, const DecidedOpening& end, do
 }
 
 }  // namespace
-
-const Operation* known_operation(const OperationLookup& find, const std::string& name) {
-    try {
-        return &find(name);
-    } catch (const UsageError&) {
-        return nullptr;
-    }
-}
 
 std::vector<OtherChoice> compared(const DecidedOpenings& given, const DecidedOpenings& own,
                                   const ByHand& by_hand) {

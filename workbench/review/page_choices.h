@@ -7,10 +7,6 @@
 
 namespace vesselbench {
 
-/// Null: of another version.
-[[nodiscard]] const Operation* known_operation(const OperationLookup& find,
-                                               const std::string& name);
-
 /// Something that an author decided otherwise than the operation would have by itself.
 struct OtherChoice {
     std::string what;           ///< "outlet_1 was made the inlet; the program would take inlet"

@@ -109,7 +109,7 @@ void PageGeometry::store(const Chunk& chunk) {
     chunks_.push_back({{"blob", name},
                        {"vertices", chunk.points[0].size()},
                        {"triangles", chunk.corners[0].size()}});
-    blobs_[name] = packed_text(bytes);
+    bytes_[name] = std::move(bytes);
     vertex_ends_.push_back(static_cast<std::uint32_t>(vertices_.size()));
     triangle_ends_.push_back(static_cast<std::uint32_t>(triangles_.size()));
 }
@@ -155,7 +155,7 @@ PageGeometry::State PageGeometry::add(const Surface& surface) {
     for (const PatchTriangle& one : shown) numbers.push_back(one.triangle);
     auto [bytes, runs] = runs_of(shown);
     const std::string name = "state-" + std::to_string(state.number);
-    blobs_[name] = packed_text(bytes);
+    bytes_[name] = std::move(bytes);
     states_.push_back({{"blob", name},
                        {"runs", runs},
                        {"chunks", chunks_of(numbers, state.used)},
@@ -177,8 +177,14 @@ nlohmann::ordered_json PageGeometry::add_values(const State& state,
     for (const double value : largest)
         append_number(bytes, rounded_share(most > 0.0 ? value / most : 0.0));
     const std::string name = "deviation-" + std::to_string(state.number);
-    blobs_[name] = packed_text(bytes);
+    bytes_[name] = std::move(bytes);
     return {{"blob", name}, {"max_mm", most}};
+}
+
+std::map<std::string, std::string> PageGeometry::blobs() const {
+    std::map<std::string, std::string> blobs;
+    for (const auto& [name, bytes] : bytes_) blobs[name] = packed_text(bytes);
+    return blobs;
 }
 
 nlohmann::ordered_json PageGeometry::json() const {

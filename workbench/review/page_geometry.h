@@ -39,8 +39,8 @@ public:
     /// {"pool", "chunks", "states"} of the page's data.
     [[nodiscard]] nlohmann::ordered_json json() const;
 
-    /// The page's blobs by name, as packed_text().
-    [[nodiscard]] const std::map<std::string, std::string>& blobs() const { return blobs_; }
+    /// The page's blobs by name, as packed_text(): packed here, for those who need them.
+    [[nodiscard]] std::map<std::string, std::string> blobs() const;
 
 private:
     using Cell = std::array<std::uint16_t, 3>;
@@ -68,7 +68,7 @@ private:
     std::vector<std::uint32_t> vertex_ends_, triangle_ends_;
     nlohmann::ordered_json chunks_ = nlohmann::ordered_json::array();
     nlohmann::ordered_json states_ = nlohmann::ordered_json::array();
-    std::map<std::string, std::string> blobs_;
+    std::map<std::string, std::string> bytes_;  ///< of the blobs, by name
 };
 
 }  // namespace vesselbench

@@ -8,6 +8,7 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
 #include "workbench/case/diagnostic_words.h"
+#include "workbench/case/point_json.h"
 #include "workbench/case/purposes.h"
 #include "workbench/case/readable_name.h"
 #include "workbench/case/version.h"
@@ -15,6 +16,7 @@
 #include "workbench/project/utc_time.h"
 #include "workbench/report/base64.h"
 #include "workbench/report/log_json.h"
+#include "workbench/review/known_operation.h"
 #include "workbench/review/page_queue.h"
 #include "workbench/review/review.h"
 
@@ -25,10 +27,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::size_t kMostNumbers = 12;  ///< longer lists are counted
-
-Json point(const Vec3& p) {
-    return {p.x(), p.y(), p.z()};
-}
 
 /// With as many digits as people read.
 struct ShownValue {
@@ -116,7 +114,7 @@ Json warnings_json(const ResultRecord& result) {
     Json rows = Json::array();
     for (const Diagnostic& warning : result.warnings) {
         Json row = {{"text", readable_sentence(worded(warning, {.window = true}))}};
-        if (warning.place) row["place"] = point(*warning.place);
+        if (warning.place) row["place"] = point_json(*warning.place);
         rows.push_back(std::move(row));
     }
     return rows;
@@ -147,12 +145,12 @@ void add_model(const PageEditModel& model, Json& edit) {
         edit["thumbnail"] = "data:image/png;base64," + base64(model.thumbnail);
     if (!model.deviation.is_null()) edit["deviation"] = model.deviation;
     if (model.place) {
-        edit["place"] = point(*model.place);
-        edit["outward"] = point(model.outward);
+        edit["place"] = point_json(*model.place);
+        edit["outward"] = point_json(model.outward);
     }
     if (model.radius) edit["radius"] = *model.radius;
     if (!model.changed) return;
-    edit["changed_box"] = point(model.changed->min);
+    edit["changed_box"] = point_json(model.changed->min);
     for (const double coordinate : model.changed->max) edit["changed_box"].push_back(coordinate);
 }
 
@@ -192,9 +190,7 @@ Json source_json(const Session& session, const std::vector<LogEntry>& log) {
         const std::vector<SourceFile> files = session.project().sources(entry.edit.edit);
         if (files.empty()) continue;
         Json source = {{"file", files.front().name}, {"kind", "surface"}};
-        const Json report =
-            entry.result ? Json::parse(entry.result->report, nullptr, false) : Json();
-        if (!report.is_object()) return source;
+        const Json report = entry.result ? reported(*entry.result) : Json::object();
         if (report.contains("spacing_mm")) {
             source["kind"] = "image";
             source["spacing"] = report["spacing_mm"];
@@ -203,11 +199,6 @@ Json source_json(const Session& session, const std::vector<LogEntry>& log) {
         return source;
     }
     return Json::object();
-}
-
-std::string purpose_title(const std::string& variant) {
-    const auto purpose = std::ranges::find(purposes(), variant, &Purpose::name);
-    return purpose == purposes().end() ? variant : purpose->title;
 }
 
 Json report_json(const std::vector<LogEntry>& log) {
@@ -247,7 +238,7 @@ Json page_manifest(const Session& session, const std::string& variant,
                      {"project",
                       {{"id", session.project().id()},
                        {"name", session.project().name()},
-                       {"purpose", purpose_title(variant)},
+                       {"purpose", model_title(variant)},
                        {"units", "mm"},
                        {"source", source_json(session, log)},
                        {"variant", variant}}},

@@ -6,6 +6,7 @@
 
 #include "geometry/kernel/surface_distance.h"
 #include "geometry/kernel/vertex_normals.h"
+#include "workbench/review/known_operation.h"
 #include "workbench/review/page_slices.h"
 #include "workbench/review/page_thumbnail.h"
 
@@ -59,21 +60,17 @@ void take_largest(const Surface& surface, const std::vector<double>& values, Pag
     model.outward = (*vertex_normals_of(surface))[vertex];
 }
 
-/// What was added is in another colour; seen from where most has changed.
-void draw_thumbnail(const Surface& surface, std::span<const double> gained, PageEditModel& model) {
-    model.thumbnail = thumbnail_png(surface, gained, model.outward);
-}
-
 /// What was added is seen on the surface after the edit, what was lost on the one before it.
-void add_difference(PageGeometry& geometry, const ShownSurface& before, const ShownSurface& after,
-                    PageEditModel& model) {
+/// \return distances of the surface after from the one before, #V; empty: nothing has changed
+std::vector<double> add_difference(PageGeometry& geometry, const ShownSurface& before,
+                                   const ShownSurface& after, PageEditModel& model) {
     const std::vector<SurfacePoint> behind = closest_points(after, before),
                                     ahead = closest_points(before, after);
     const std::vector<double> gained = distances(behind), lost = distances(ahead);
     Positions moved;
     add_moved(after.surface, gained, moved);
     add_moved(before.surface, lost, moved);
-    if (moved.empty()) return draw_thumbnail(after.surface, {}, model);
+    if (moved.empty()) return {};
     model.changed = bounds(moved);
     model.deviation = geometry.add_values(after.state, gained);
     model.deviation["measure"] = "distance from the surface before the edit";
@@ -84,7 +81,7 @@ void add_difference(PageGeometry& geometry, const ShownSurface& before, const Sh
     model.wall = wall_change(before.surface, wall_deviations(before.surface, after.surface, ahead),
                              after.surface, wall_deviations(after.surface, before.surface, behind),
                              kUnmoved);
-    draw_thumbnail(after.surface, gained, model);
+    return gained;
 }
 
 /// Edits that have a surface, with it, in order.
@@ -136,7 +133,8 @@ void add_slices(const Image& image, PageModels& models) {
 }  // namespace
 
 PageModels page_models(Session& session, const std::vector<LogEntry>& log,
-                       const OperationLookup& find, PageImages images, Progress progress) {
+                       const OperationLookup& find, const PageContents& contents,
+                       Progress progress) {
     Scene last;
     const std::vector<ShownEdit> shown = surfaces_of(session, log, last, progress);
     const auto& neighbours = last.neighbours;
@@ -149,13 +147,13 @@ PageModels page_models(Session& session, const std::vector<LogEntry>& log,
         ShownSurface after{edit.surface, models.geometry.add(edit.surface)};
         if (before) model.before = before->state.number;
         model.after = after.state.number;
-        if (before)
-            add_difference(models.geometry, *before, after, model);
-        else
-            draw_thumbnail(after.surface, {}, model);
+        std::vector<double> gained;
+        if (before) gained = add_difference(models.geometry, *before, after, model);
+        if (contents.thumbnails)
+            model.thumbnail = thumbnail_png(after.surface, gained, model.outward);
         before = std::move(after);
     }
-    if (images == PageImages::Slices && last.image) add_slices(*last.image, models);
+    if (contents.images == PageImages::Slices && last.image) add_slices(*last.image, models);
     for (const auto& [name, surface] : neighbours)
         models.neighbours.emplace_back(name, models.geometry.add(surface).number);
     for (const LogEntry& entry : log)

@@ -21,6 +21,15 @@ enum class PageImages : std::uint8_t {
     Slices     ///< parts of three slices through the place of each edit
 };
 
+/// What is made besides the surfaces and their changes, which the queue needs.
+struct PageContents {
+    PageImages images = PageImages::Contours;
+    bool thumbnails = true;
+};
+
+/// Of the queue alone.
+inline constexpr PageContents kQueueOnly{.images = PageImages::None, .thumbnails = false};
+
 /// What an edit did to the surface, for the review page.
 struct PageEditModel {
     std::optional<std::size_t> before, after;  ///< states of the page's geometry; none: no surface
@@ -48,8 +57,7 @@ struct PageModels {
 /// \param find of operations
 /// \throw what Session::result_scene() throws
 [[nodiscard]] PageModels page_models(Session& session, const std::vector<LogEntry>& log,
-                                     const OperationLookup& find,
-                                     PageImages images = PageImages::Contours,
+                                     const OperationLookup& find, const PageContents& contents = {},
                                      Progress progress = {});
 
 }  // namespace vesselbench

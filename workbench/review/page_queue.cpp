@@ -9,6 +9,7 @@
 #include "geometry/kernel/wording.h"
 #include "workbench/case/diagnostic_words.h"
 #include "workbench/case/readable_name.h"
+#include "workbench/review/known_operation.h"
 
 namespace vesselbench {
 

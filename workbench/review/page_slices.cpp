@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "workbench/case/point_json.h"
 #include "workbench/review/page_bytes.h"
 
 namespace vesselbench {
@@ -30,10 +31,6 @@ char grey(float value, const GreyWindow& window) {
     if (!std::isfinite(value)) return 0;
     const double share = (value - window.level) / window.window + 0.5;
     return static_cast<char>(std::lround(255.0 * std::clamp(share, 0.0, 1.0)));
-}
-
-Json vector(const Vec3& v) {
-    return {v.x(), v.y(), v.z()};
 }
 
 }  // namespace
@@ -74,9 +71,9 @@ Json PageSlices::add(const std::string& blob, SlicePlane plane, const Vec3& plac
             {"width", columns.count()},
             {"height", rows.count()},
             {"spacing", {wide, high}},
-            {"origin", vector(first)},
-            {"u", vector(u)},
-            {"v", vector(v)}};
+            {"origin", point_json(first)},
+            {"u", point_json(u)},
+            {"v", point_json(v)}};
 }
 
 }  // namespace vesselbench

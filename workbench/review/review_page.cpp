@@ -55,7 +55,7 @@ std::string review_page(Session& session, const std::string& variant, const Oper
     const std::size_t place = text.find(kMarker);
     if (place == std::string::npos) throw DiagnosedFailure({.code = "no-review-page"});
     const std::vector<LogEntry> log = session.log(variant);
-    const PageModels models = page_models(session, log, find, images, progress);
+    const PageModels models = page_models(session, log, find, {.images = images}, progress);
     const nlohmann::ordered_json manifest =
         page_manifest(session, variant, log, models, images, find);
     std::map<std::string, std::string> blobs = models.geometry.blobs();

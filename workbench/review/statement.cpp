@@ -11,26 +11,13 @@
 #include "workbench/case/measure_json.h"
 #include "workbench/project/project.h"
 #include "workbench/report/log_json.h"
+#include "workbench/review/known_operation.h"
 
 namespace vesselbench {
 
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-const Operation* known_operation(const OperationLookup& find, const std::string& name) {
-    try {
-        return &find(name);
-    } catch (const UsageError&) {  // of another version
-        return nullptr;
-    }
-}
-
-Json report_of(const LogEntry& entry) {
-    if (!entry.result || entry.result->report.empty()) return Json::object();
-    const Json report = Json::parse(entry.result->report, nullptr, false);
-    return report.is_object() ? report : Json::object();
-}
 
 /// The files that an edit has read, and what its report says of their resolution.
 void add_sources(const Session& session, const LogEntry& entry, Json& sources) {
@@ -39,7 +26,7 @@ void add_sources(const Session& session, const LogEntry& entry, Json& sources) {
                        {"as", file.parameter},
                        {"file", file.name},
                        {"sha256", file.hash}};
-        const Json report = report_of(entry);
+        const Json report = entry.result ? reported(*entry.result) : Json::object();
         for (const char* key : {"format", "size_voxels", "spacing_mm", "units", "triangles"})
             if (report.contains(key)) source[key] = report[key];
         sources.push_back(std::move(source));

@@ -97,19 +97,13 @@ std::string variant_help() {
     return help;
 }
 
-/// The model that a variant is, as *Prepare* names it; a variant of the user's by its own name.
-std::string label_of(const std::string& variant) {
-    const auto purpose = std::ranges::find(purposes(), variant, &Purpose::name);
-    return purpose == purposes().end() ? variant : purpose->title;
-}
-
 constexpr float kVariant = 16.0F, kLeastVariant = 5.0F;  ///< width [em]
 
 void draw_variant(PanelContext& c, float width) {
     const std::vector<std::string> variants = variants_of(c.place.document);
     std::vector<std::string> labels;
-    for (const std::string& variant : variants) labels.push_back(label_of(variant));
-    std::string chosen = label_of(c.place.document.variant());
+    for (const std::string& variant : variants) labels.push_back(model_title(variant));
+    std::string chosen = model_title(c.place.document.variant());
     if (choice(c.ui, "tool.variant", labels, chosen, width)) {
         const auto index = std::ranges::find(labels, chosen) - labels.begin();
         c.place.document.show_variant(variants[static_cast<std::size_t>(index)]);

@@ -55,9 +55,8 @@ void ReviewFeature::find_queue() {
     const auto find = [found, variant = core_.document.variant()](Session& session,
                                                                   const Progress& progress) {
         const std::vector<LogEntry> log = session.log(variant);
-        *found =
-            review_queue(log, page_models(session, log, find_operation, PageImages::None, progress),
-                         find_operation);
+        *found = review_queue(log, page_models(session, log, find_operation, kQueueOnly, progress),
+                              find_operation);
         return make_message(MessageKind::Success,
                             found->empty() ? "Nothing stands out in the edits"
                                            : counted(found->size(), "thing") + " to look at first");
