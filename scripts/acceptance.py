@@ -2,7 +2,8 @@
 """Prepares the bundled case and every surface and image of ../shared/data for flow simulation and for printing, checks
 the products itself and with OpenFOAM and PrusaSlicer, and writes the table docs/acceptance.md, with the forest's
 results from docs/forest.md beside it. A run of every case ends with one row of every page of figures measured again
-(`scripts/experiments.py --repeat` and so on), so that no page goes stale unseen.
+(`scripts/experiments.py --repeat` and so on), so that no page goes stale unseen, and with the review page's tests in Firefox
+(`scripts/firefox`).
 
   scripts/acceptance.py [--only NAME]... [--goal cfd|rp] [--out FOLDER] [--no-table] [--quick] [--no-solve]
   scripts/acceptance.py --forest       only renews the forest's part of docs/acceptance.md
@@ -68,8 +69,8 @@ OPENINGS = {"bundled aneurysm": 3, "v4a aneurysm": 3, "v4a healthy": 3, "aneuris
             "carotid capped": 3}
 QUICK = ("bundled aneurysm", "artery bifurcation", "vein", "small aneurysm (m)")
 # The scripts that write pages of figures and repeat one of their rows.
-PAGES = ("experiments.py", "experiments_decimate.py", "experiments_flow.py", "experiments_suggest.py", "experiments_thin.py",
-         "experiments_truth.py")
+REPEATS = [f"{name}.py --repeat" for name in ("experiments", "experiments_decimate", "experiments_flow", "experiments_suggest",
+                                              "experiments_thin", "experiments_truth")]
 # The bundled case's mesh for a flow to be interpreted, not only to converge.
 FULL_MESH = ["--set", "remesh.edge=0.3", "--set", "tetrahedralize.cells=320000"]
 
@@ -436,12 +437,13 @@ def say(row):
 
 
 # --- the pages of figures --------------------------------------------------------------------------------------------
-def rows_code():
-    """Repeats one row of every page. Exit code: 1 if one differs or cannot be measured, else 77 if one was skipped, else 0."""
+def worst_code(scripts):
+    """Runs them with their arguments. Exit code: 1 if one fails, else 77 if one was skipped, else 0."""
     codes = []
-    for script in PAGES:
-        print(f"scripts/{script} --repeat", flush=True)
-        codes.append(subprocess.run([os.path.join(ROOT, "scripts", script), "--repeat"]).returncode)
+    for script in scripts:
+        print(f"scripts/{script}", flush=True)
+        name, *arguments = script.split()
+        codes.append(subprocess.run([os.path.join(ROOT, "scripts", name), *arguments]).returncode)
     if any(code not in (0, 77) for code in codes):
         return 1
     return 77 if 77 in codes else 0
@@ -461,7 +463,7 @@ def main():
     if options.forest:
         return renew_forest(os.path.join(ROOT, "docs", "acceptance.md"))
     if options.rows:
-        return rows_code()
+        return worst_code(REPEATS)
     revision = page_rows.revision()  # of the files as they are now
     if not os.path.isdir(DATA):
         skip("no ../shared/data; only the bundled case is run")
@@ -482,7 +484,7 @@ def main():
     whole = not (options.quick or options.only or options.goal)
     if whole and not options.no_table:
         write_table(rows, os.path.join(ROOT, "docs", "acceptance.md"), revision)
-    repeated = rows_code() if whole else 0
+    repeated = worst_code([*REPEATS, "firefox"]) if whole else 0
     if repeated == 1 or tube or any(r["must"] and (r["code"] != 0 or r["failures"]) for r in rows):
         return 1
     return repeated if os.path.isdir(DATA) else 77

@@ -18,6 +18,7 @@ enum class Meaning {
     Tip,       ///< point at a vessel's end or in a dome
     Branch,    ///< the same, of a branch that goes
     Inlet,     ///< point at the opening that is the inlet
+    InletEnd,  ///< the same, as a number in the list of ends
     Seed,      ///< point in the image
     Box,       ///< opposite corners
     Labels,    ///< of a label image
@@ -25,6 +26,8 @@ enum class Meaning {
     Names,     ///< several, separated by commas
     Openings,  ///< names of openings, separated by commas
     Planes,    ///< openings as planes
+    Roles,     ///< of the openings of planes, with their names
+    Doubts,    ///< true: the likelier choice is taken where the operation would ask
     Unit,      ///< of the model's lengths: another one moves every place
     Dabs       ///< of a brush
 };

@@ -37,11 +37,18 @@ Arguments undecided(const Operation& operation, const Arguments& given) {
     return left;
 }
 
+/// In place of an author the operation takes what is likelier, instead of asking.
+Arguments with_doubts_accepted(const Operation& operation, Arguments arguments) {
+    if (const Parameter* doubts = parameter_of(operation, Meaning::Doubts))
+        arguments.set(doubts->name, true);
+    return arguments;
+}
+
 ByHand decided_by_hand(const Operation& operation, const Arguments& given) {
     ByHand by_hand;
     for (const Parameter& parameter : operation.parameters) {
         if (!given.has(parameter.name) || !decides(parameter)) continue;
-        const bool inlet = parameter.meaning == Meaning::Inlet || parameter.name == "inlet_ends";
+        const bool inlet = parameter.meaning == Meaning::Inlet || parameter.meaning == Meaning::InletEnd;
         if (parameter.use == Use::Decision) by_hand = {true, true, true};
         (inlet ? by_hand.inlet : by_hand.ends) = true;
     }
@@ -77,11 +84,19 @@ void add_figures(const Json& report, DecidedOpenings& decided) {
     }
 }
 
-DecidedOpenings decided_in(const ResultRecord& result) {
+/// Records that a run decided; none if it has decided none of this meaning.
+std::vector<Arguments> decided_records(const Operation& operation, const ResultRecord& result,
+                                       Meaning meaning) {
+    const Parameter* parameter = parameter_of(operation, meaning);
+    if (parameter == nullptr || !result.resolved.has(parameter->name)) return {};
+    return result.resolved.records(parameter->name).list();
+}
+
+DecidedOpenings decided_in(const Operation& operation, const ResultRecord& result) {
+    const auto planes = decided_records(operation, result, Meaning::Planes);
+    const auto names = decided_records(operation, result, Meaning::Roles);
     DecidedOpenings decided;
-    if (!result.resolved.has("planes") || !result.resolved.has("names")) return decided;
-    const std::vector<Arguments>& planes = result.resolved.records("planes").list();
-    const std::vector<Arguments>& names = result.resolved.records("names").list();
+    if (planes.empty() || names.empty()) return decided;
     for (std::size_t i = 0; i < std::min(planes.size(), names.size()); ++i)
         decided.openings.push_back({.name = names[i].text("name"),
                                     .inlet = names[i].is_word("kind", "inlet"),
@@ -182,10 +197,11 @@ std::vector<OtherChoice> other_choices(Session& session, const LogEntry& entry,
     const Arguments left = undecided(operation, entry.edit.given);
     if (left == entry.edit.given) return {};
     try {
-        const Preview own = session.preview_change(entry.edit.edit.id, left, {}, progress);
-        return compared(decided_in(*entry.result), decided_in(own.result()),
+        const Preview own = session.preview_change(
+            entry.edit.edit.id, with_doubts_accepted(operation, left), {}, progress);
+        return compared(decided_in(operation, *entry.result), decided_in(operation, own.result()),
                         decided_by_hand(operation, entry.edit.given));
-    } catch (const AlgorithmFailure&) {  // it would have asked
+    } catch (const AlgorithmFailure&) {  // it finds no openings by itself
         return {};
     } catch (const UsageError&) {
         return {};

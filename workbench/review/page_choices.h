@@ -15,9 +15,9 @@ struct OtherChoice {
 };
 
 /// What the author of an edit that opens vessels decided otherwise: the inlet, directions of cuts,
-/// ends that stay closed or are opened. The operation runs once more without those arguments;
-/// nothing is entered. Empty: nothing was decided by hand, it agrees, or the operation cannot
-/// decide by itself.
+/// ends that stay closed or are opened. The operation runs once more without those arguments, and
+/// with the likelier choice where it would ask; nothing is entered. Empty: nothing was decided by
+/// hand, it agrees, or the operation finds no openings by itself.
 /// \param operation of the edit \param entry a done edit \throw Cancelled
 [[nodiscard]] std::vector<OtherChoice> other_choices(Session& session, const LogEntry& entry,
                                                      const Operation& operation,

@@ -1,24 +1,46 @@
-// A headless Chromium of the system with a fresh profile, and pages that record what must not happen.
-import { existsSync, mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+// A browser of the system with a fresh profile, and pages that record what must not happen: a headless Chromium, or, if
+// FIREFOX names one, a Firefox, which draws in 3D only on a display (xvfb-run).
+import { existsSync, mkdirSync, mkdtempSync, readdirSync, renameSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import puppeteer from 'puppeteer-core';
 import { fillPage } from './sample/encode.mjs';
 
-const CHROMIUM = process.env.CHROMIUM ?? '/usr/bin/chromium';
-export const missing = existsSync(CHROMIUM) ? false : `no browser at ${CHROMIUM}`;
+const FIREFOX = process.env.FIREFOX;
+const BROWSER = FIREFOX ?? process.env.CHROMIUM ?? '/usr/bin/chromium';
+export const emulatesMedia = !FIREFOX;
+export const missing = existsSync(BROWSER) ? false : `no browser at ${BROWSER}`;
 
 const FLAGS = ['--headless=new', '--no-sandbox', '--disable-background-networking', '--disable-component-update', '--disable-sync', '--no-first-run'];
 const SOFTWARE = ['--use-angle=swiftshader', '--enable-unsafe-swiftshader'];
 
+const chromium = (webgl) => ({ args: [...FLAGS, ...(webgl ? SOFTWARE : ['--disable-gpu', '--disable-3d-apis'])], headless: true });
+const firefox = (webgl, folder) => ({ browser: 'firefox', headless: !process.env.DISPLAY,
+  extraPrefsFirefox: { 'browser.download.folderList': 2, 'browser.download.dir': join(folder, 'downloads'), 'webgl.disabled': !webgl } });
+
 /** @param {{webgl?: boolean}} options @returns browser, folder, and a way to end both */
 export async function startBrowser({ webgl = true } = {}) {
   const folder = mkdtempSync(join(tmpdir(), 'review-page-'));
-  const browser = await puppeteer.launch({ executablePath: CHROMIUM, args: [...FLAGS, ...(webgl ? SOFTWARE : ['--disable-gpu', '--disable-3d-apis'])],
-    userDataDir: join(folder, 'profile'), headless: true, protocolTimeout: 120000 });
+  mkdirSync(join(folder, 'downloads'));
+  const browser = await puppeteer.launch({ executablePath: BROWSER, userDataDir: join(folder, 'profile'), protocolTimeout: 120000,
+    ...(FIREFOX ? firefox(webgl, folder) : chromium(webgl)) });
   const end = async () => { await browser.close(); rmSync(folder, { recursive: true, force: true, maxRetries: 5 }); };
   return { browser, folder, end };
+}
+
+/** Another reader's browser: nothing is remembered of the others. What it saves goes to the folder's downloads. */
+export const newReader = ({ browser, folder }) => browser.createBrowserContext(
+  FIREFOX ? {} : { downloadBehavior: { policy: 'allow', downloadPath: join(folder, 'downloads') } });
+
+/** Waits for the one file that a page saves, and puts it aside. @returns its path, and the name that the page gave it */
+export async function savedFile({ folder }, aside) {
+  const downloads = join(folder, 'downloads');
+  const whole = () => { const [file, more] = readdirSync(downloads); return file && !more && statSync(join(downloads, file)).size > 0 && /\.json$/.test(file) ? file : null; };
+  for (let i = 0; i < 200 && !whole(); ++i) await new Promise((resolve) => setTimeout(resolve, 50));
+  const file = whole(), path = join(folder, aside);
+  renameSync(join(downloads, file), path);
+  return { path, name: file };
 }
 
 /** Writes a page of a template and a sample. @returns {string} its file address */
@@ -36,8 +58,8 @@ export async function openPage(browser, address, { width = 1440, height = 900, s
   page.on('pageerror', (error) => page.problems.push(`error: ${error.message}`));
   page.on('request', (request) => { if (request.url() !== address && !/^(data|blob):/.test(request.url())) page.problems.push(`request: ${request.url()}`); });
   page.on('dialog', (dialog) => dialog.accept());
-  await page.setViewport({ width, height, hasTouch: width < 500, isMobile: width < 500 });
-  await page.emulateMediaFeatures([{ name: 'prefers-color-scheme', value: scheme }, { name: 'prefers-reduced-motion', value: motion }]);
+  await page.setViewport(FIREFOX ? { width, height } : { width, height, hasTouch: width < 500, isMobile: width < 500 });
+  if (emulatesMedia) await page.emulateMediaFeatures([{ name: 'prefers-color-scheme', value: scheme }, { name: 'prefers-reduced-motion', value: motion }]);
   if (prepare) await prepare(page);
   await page.goto(address);
   return page;

@@ -1,10 +1,10 @@
 // The page in a browser: walked by keyboard, verdicts taken and saved, nothing asked of the network.
 import assert from 'node:assert/strict';
-import { existsSync, readFileSync } from 'node:fs';
+import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { buildPage } from '../build.mjs';
-import { focused, missing, openPage, said, shown, startBrowser, text, writePage } from './browser.mjs';
+import { emulatesMedia, focused, missing, newReader, openPage, said, savedFile, shown, startBrowser, text, writePage } from './browser.mjs';
 import { makeSample } from './sample/sample.mjs';
 
 const EVIL = ['<script>window.harmed = 1</script>', '"><img src=x onerror="window.harmed = 1">', 'left \u202e right', 'x'.repeat(100000)];
@@ -23,7 +23,7 @@ describe('the page in a browser', { skip: missing, timeout: 240000 }, () => {
     address = writePage(tools.folder, 'case.html', template, sample);
   });
   after(() => tools?.end());
-  const fresh = () => tools.browser.createBrowserContext({ downloadBehavior: { policy: 'allow', downloadPath: tools.folder } });
+  const fresh = () => newReader(tools);
 
   test('the queue is walked by keyboard; there is no error and no request', async () => {
     const page = await openPage(await fresh(), address);
@@ -75,8 +75,8 @@ describe('the page in a browser', { skip: missing, timeout: 240000 }, () => {
     await press(page, 'j', 'a');
     await said(page, /Accepted/);
     await press(page, 'j', 'u', 's');
-    const path = join(tools.folder, 'verdicts-case-7-middle-cerebral-artery-dr-a-reader.json');
-    for (let i = 0; i < 100 && !existsSync(path); ++i) await new Promise((resolve) => setTimeout(resolve, 50));
+    const { path, name } = await savedFile(tools, 'first.json');
+    assert.equal(name, 'verdicts-case-7-middle-cerebral-artery-dr-a-reader.json');
     const file = JSON.parse(readFileSync(path, 'utf8'));
     const edit = (id) => sample.manifest.edits.find((one) => one.id === id);
     assert.deepEqual(file.edits.map((one) => [one.edit, one.verdict]).sort(), [[12, 'accept'], [5, 'reject'], [6, 'unsure']]);
@@ -178,7 +178,7 @@ describe('the page in a browser', { skip: missing, timeout: 240000 }, () => {
     await page.close();
   });
 
-  test('who asks for less motion blinks by hand', async () => {
+  test('who asks for less motion blinks by hand', { skip: !emulatesMedia && 'the browser emulates no media features' }, async () => {
     const page = await openPage(await fresh(), address, { motion: 'reduce' });
     await shown(page);
     await press(page, 'b');

@@ -2,11 +2,10 @@
 // VESSELBENCH: the program; CASE: a case that it prepares.
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
-import { existsSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { after, before, describe, test } from 'node:test';
-import { missing, openPage, said, shown, startBrowser, text } from './browser.mjs';
+import { missing, newReader, openPage, said, savedFile, shown, startBrowser, text } from './browser.mjs';
 
 const PROGRAM = process.env.VESSELBENCH, CASE = process.env.CASE;
 const skip = missing || (PROGRAM && CASE ? false : 'no VESSELBENCH and CASE in the environment');
@@ -50,9 +49,7 @@ describe('a review from the program to the program', { skip, timeout: 600000 }, 
   /** A reviewer accepts every edit but one, and saves. @returns {Promise<string>} path of the verdicts */
   async function reviewed(name, rejected) {
     const address = pathToFileURL(join(tools.folder, 'page.html')).href;
-    const folder = join(tools.folder, name);
-    const context = await tools.browser.createBrowserContext({ downloadBehavior: { policy: 'allow', downloadPath: folder } });
-    const page = await openPage(context, address);
+    const page = await openPage(await newReader(tools), address);
     await shown(page);
     await press(page, 't');  // all edits
     const count = (await page.$$('.entry')).length;
@@ -72,12 +69,11 @@ describe('a review from the program to the program', { skip, timeout: 600000 }, 
       await press(page, 'j');
     }
     await press(page, 's');
-    for (let i = 0; i < 200 && !(existsSync(folder) && readdirSync(folder).some((one) => one.endsWith('.json'))); ++i)
-      await new Promise((resolve) => setTimeout(resolve, 50));
+    const { path } = await savedFile(tools, `${name}.json`);
     assert.deepEqual(page.problems, []);
     assert.doesNotMatch(await text(page, '#progress'), /unsaved/);
     await page.close();
-    return join(folder, readdirSync(folder).find((one) => one.endsWith('.json')));
+    return path;
   }
 
   test('page, verdicts, dispute, gate, and what changes afterwards', async () => {
