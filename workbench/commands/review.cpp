@@ -16,8 +16,8 @@
 #include "workbench/operations/table.h"
 #include "workbench/project/project.h"
 #include "workbench/review/page_queue.h"
+#include "workbench/review/review_json.h"
 #include "workbench/review/review_page.h"
-#include "workbench/review/statement.h"
 #include "workbench/session/edit_place.h"
 
 namespace vesselbench {
@@ -56,18 +56,19 @@ PageImages images_of(const std::string& word) {
     return word == "slices" ? PageImages::Slices : PageImages::Contours;
 }
 
-/// Written beside its place and renamed, as all results are.
-void write_page(Session& session, const ReviewArguments& arguments, const Progress& progress) {
+/// Written beside its place and renamed, as all results are. \return the page's queue
+Json write_page(Session& session, const ReviewArguments& arguments, const Progress& progress) {
     if (std::filesystem::exists(arguments.page) && session.is_source(arguments.page))
         throw UsageError(bare_name(arguments.page) + " is a file that the case was made from");
     const std::string variant = variant_meant(arguments.variant, *session.snapshot()->history);
-    const std::string page =
+    const ReviewPage page =
         review_page(session, variant, find_operation, images_of(arguments.images), progress);
     PendingFiles files;
-    (void)files.add_text(arguments.page, page);
+    (void)files.add_text(arguments.page, page.html);
     files.commit();
     remark(bare_name(arguments.page) + ": a page for reviewers, " +
-           formatted(static_cast<double>(page.size()) / 1e6, "%.1f MB"));
+           formatted(static_cast<double>(page.html.size()) / 1e6, "%.1f MB"));
+    return page.queue;
 }
 
 /// What a reviewer should look at first, as the page lists it.
@@ -92,7 +93,8 @@ void review_project(const ReviewArguments& arguments, const Progress& progress) 
                             {"outdated", done.outdated},
                             {"known", done.known}});
     }
-    if (!arguments.page.empty()) write_page(session, arguments, progress);
+    Json queue;
+    if (!arguments.page.empty()) queue = write_page(session, arguments, progress);
     const Review review = review_of(session);
     if (!arguments.json) return print_review(review);
     Json json = {{"project", session.project().name()},
@@ -100,7 +102,7 @@ void review_project(const ReviewArguments& arguments, const Progress& progress) 
                  {"head", session.project().record_head()},
                  {"imported", imported}};
     json.update(review_json(review));
-    json["queue"] = queue_of(session, arguments.variant, progress);
+    json["queue"] = arguments.page.empty() ? queue_of(session, arguments.variant, progress) : queue;
     std::cout << text_from_json(json, 2) << "\n";
 }
 

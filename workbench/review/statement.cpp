@@ -70,19 +70,6 @@ Json reviewers_json(const Review& review) {
     return list;
 }
 
-Json verdict_json(const GivenVerdict& given) {
-    return {{"reviewer", given.reviewer}, {"role", given.role},
-            {"time", given.time},         {"verdict", to_string(given.verdict)},
-            {"comment", given.comment},   {"revision", given.revision},
-            {"outdated", given.outdated}};
-}
-
-Json verdicts_json(const std::vector<GivenVerdict>& verdicts) {
-    Json list = Json::array();
-    for (const GivenVerdict& given : verdicts) list.push_back(verdict_json(given));
-    return list;
-}
-
 }  // namespace
 
 Json statement_of(const Session& session, const OperationLookup& find) {
@@ -102,24 +89,6 @@ Json statement_of(const Session& session, const OperationLookup& find) {
             {"segmentation", segmentation},  {"edits", edits},
             {"operators", operators},        {"reviewers", reviewers_json(review)},
             {"review", review_words(review)}};
-}
-
-Json review_json(const Review& review) {
-    Json edits = Json::array();
-    for (const ReviewedEdit& edit : review.edits)
-        edits.push_back({{"edit", edit.edit.id},
-                         {"revision", edit.edit.revision},
-                         {"step", to_string(edit.place.step)},
-                         {"variant", edit.place.variant},
-                         {"operation", edit.operation},
-                         {"hash", edit.hash},
-                         {"status", to_string(edit.status)},
-                         {"verdicts", verdicts_json(edit.verdicts)}});
-    return {{"status", review.files == 0 ? "not reviewed" : to_string(status_of(review))},
-            {"summary", review_words(review)},
-            {"files", review.files},
-            {"edits", edits},
-            {"overall", verdicts_json(review.overall)}};
 }
 
 }  // namespace vesselbench

@@ -13,7 +13,4 @@ namespace vesselbench {
 [[nodiscard]] nlohmann::ordered_json statement_of(const Session& session,
                                                   const OperationLookup& find);
 
-/// A review as JSON: every edit of the current state with its verdicts.
-[[nodiscard]] nlohmann::ordered_json review_json(const Review& review);
-
 }  // namespace vesselbench
