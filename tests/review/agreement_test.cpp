@@ -49,8 +49,17 @@ SCENARIO("Agreement has limits", "[review][agreement]") {
         }
         const Agreement found = agreement_of(units_of({one, other}));
         CHECK(found.units == 60);
+        CHECK(found.values == 120);
         CHECK(found.lower.value() < found.alpha.value());
         CHECK(found.upper.value() > found.alpha.value());
         CHECK(found.lower == agreement_of(units_of({one, other})).lower);
+    }
+    THEN("one disagreement, which many draws miss, gives no interval") {
+        const std::string accepts(39, 'a');
+        const Agreement found = agreement_of(units_of({"a" + accepts, "r" + accepts}));
+        CHECK(found.share.value() == Approx(39.0 / 40.0));
+        CHECK(found.alpha.value() == Approx(0.0).margin(0.05));
+        CHECK_FALSE(found.lower.has_value());
+        CHECK_FALSE(found.upper.has_value());
     }
 }

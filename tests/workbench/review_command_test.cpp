@@ -115,6 +115,42 @@ SCENARIO("An export can require that reviewers have accepted the model",
     }
 }
 
+SCENARIO("The agreement of reviewers is printed over several projects",
+         "[workbench][command-line][review]") {
+    const std::string folder = temporary_folder(), project = new_project(folder);
+    const std::string other = new_project(temporary_folder());
+    for (const std::string& judged : {project, other})
+        for (const char* reviewer : {"A. Kern", "B. Roth"})
+            REQUIRE(run({"review", judged, "--import",
+                         verdicts(judged, reviewer, "accept", folder + "/v.json")})
+                        .exit_code == 0);
+    const ProgramRun good = run({"review", "--summary", project, other});
+    CHECK(good.exit_code == 0);
+    CHECK_THAT(good.out, Contains("2 projects, 2 reviewers: A. Kern, B. Roth") &&
+                             Contains("load-surface") && Contains("too few"));
+    const Json json = json_of({"review", project, "--summary"});
+    CHECK(json["all"]["edits"] == 2);
+    CHECK(json["all"]["share"] == 1.0);
+    THEN("what cannot be read is named, and the others are counted") {
+        write_file(folder + "/damaged.vbench", "damaged");
+        const std::vector<std::string> mixed = {"review", "--summary", folder + "/damaged.vbench",
+                                                project};
+        const ProgramRun bad = run(mixed);
+        CHECK(bad.exit_code == 3);
+        CHECK_THAT(bad.err, Contains(folder + "/damaged.vbench"));
+        CHECK_THAT(bad.out, Contains("1 project, 2 reviewers"));
+        CHECK(json_of(mixed)["unread"][0]["project"] == folder + "/damaged.vbench");
+        CHECK(json_of(mixed)["all"]["edits"] == 2);
+    }
+    THEN("it goes with nothing else, and everything else with one project") {
+        CHECK(run({"review", project, other}).exit_code == 2);
+        CHECK(run({"review", "--summary"}).exit_code == 2);
+        CHECK(run({"review", "--summary", project, "--import", folder + "/v.json"}).exit_code == 2);
+        CHECK(run({"review", project, "--import", folder + "/v.json", folder + "/v.json"})
+                  .exit_code == 0);
+    }
+}
+
 SCENARIO("Verdicts that are none are bad input", "[workbench][command-line][review]") {
     const std::string folder = temporary_folder(), project = new_project(folder);
     write_file(folder + "/v.json", R"({"format": "vesselbench-verdicts", "version": 9})");

@@ -250,13 +250,18 @@ struct AuditArguments {
 bool audit_project(const AuditArguments& arguments, const Progress& progress);
 
 struct ReviewArguments {
-    std::string project;
+    std::vector<std::string> projects;  ///< one, or with `summary` any number
     std::vector<std::string> imported;  ///< files of verdicts
     std::string page;                   ///< to be written for reviewers; empty: none
     std::string images = "contours";    ///< of the page: off, contours or slices
     std::string variant;                ///< of the page; empty: the only one, or the usual one
+    bool summary = false;               ///< how far the reviewers of all projects agree
     bool json = false;
 };
+
+/// Prints by operation how far reviewers agree, over several projects.
+/// \return false if one could not be read: the others are counted
+bool summarize_reviews(const ReviewArguments& arguments, const Progress& progress);
 
 /// Enters reviewers' verdicts, lists how every edit was judged, and writes the page on which
 /// reviewers look at them.

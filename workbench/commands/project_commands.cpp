@@ -137,14 +137,34 @@ void add_audit(CommandLine& line) {
     add_json(command, options->json);
 }
 
+void add_summary(CLI::App& command, ReviewArguments& options) {
+    CLI::Option* summary = command.add_flag(
+        "--summary", options.summary,
+        "How far the reviewers of one or several projects agree, by operation: number of edits\n"
+        "that two or more have decided, of their verdicts, share of agreement, and from 30 edits\n"
+        "on Krippendorff's alpha with its 95 % interval. 'unsure' is no decision");
+    for (const char* other : {"--import", "--out", "--images", "--variant"})
+        summary->excludes(command.get_option(other));
+}
+
+/// \return the exit code
+int run_review(const ReviewArguments& options, const Progress& progress) {
+    if (options.summary) return summarize_reviews(options, progress) ? 0 : 3;
+    return review_project(options, progress), 0;
+}
+
 void add_review(CommandLine& line) {
     const auto options = std::make_shared<ReviewArguments>();
     CLI::App& command =
         add_command(line, "review",
                     "Write the page on which experts review the edits; enter their verdicts; list "
-                    "how every edit was judged",
-                    [options, &line] { return review_project(*options, line.progress), 0; });
-    add_project(command, options->project);
+                    "how every edit was judged, or how far reviewers agree",
+                    [options, &line] { return run_review(*options, line.progress); });
+    command
+        .add_option("PROJECT", options->projects,
+                    "Project file (.vbench); with --summary one or several")
+        ->required()
+        ->type_name("");
     command
         .add_option("--import", options->imported,
                     "Enter the verdicts that a reviewer has saved, once each")
@@ -159,6 +179,7 @@ void add_review(CommandLine& line) {
                     "slices of the image as well")
         ->check(CLI::IsMember({"off", "contours", "slices"}));
     add_variant(command, options->variant, "Variant of the page: cfd, rp or a name");
+    add_summary(command, *options);
     add_json(command, options->json);
 }
 

@@ -82,7 +82,9 @@ Json queue_of(Session& session, const std::string& variant_asked, const Progress
 }  // namespace
 
 void review_project(const ReviewArguments& arguments, const Progress& progress) {
-    Session session = Session::open(arguments.project, {.find = find_operation});
+    if (arguments.projects.size() != 1)
+        throw UsageError("one project is reviewed at a time; several are given to --summary only");
+    Session session = Session::open(arguments.projects.front(), {.find = find_operation});
     Json imported = Json::array();
     for (const std::string& file : arguments.imported) {
         const ImportedVerdicts done = import_verdicts(session, file);
