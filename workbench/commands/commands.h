@@ -242,6 +242,7 @@ struct AuditArguments {
     std::string project;
     std::string html;                  ///< file to write; empty: none
     std::vector<std::string> against;  ///< files of verdicts
+    std::string signers;               ///< file of allowed signers; empty: nothing is verified
     bool replay = false;
     bool json = false;
 };
@@ -252,6 +253,7 @@ bool audit_project(const AuditArguments& arguments, const Progress& progress);
 struct ReviewArguments {
     std::vector<std::string> projects;  ///< one, or with `summary` any number
     std::vector<std::string> imported;  ///< files of verdicts
+    std::string signers;                ///< file of allowed signers; empty: nothing is verified
     std::string page;                   ///< to be written for reviewers; empty: none
     std::string images = "contours";    ///< of the page: off, contours or slices
     std::string variant;                ///< of the page; empty: the only one, or the usual one

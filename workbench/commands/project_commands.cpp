@@ -121,6 +121,13 @@ void add_replay(CommandLine& line) {
     add_json(command, options->json);
 }
 
+void add_signers(CLI::App& command, std::string& signers, const std::string& help) {
+    command
+        .add_option("--signers", signers,
+                    help + "\n(the file: ALLOWED SIGNERS in ssh-keygen's manual)")
+        ->type_name("ALLOWED_SIGNERS");
+}
+
 void add_audit(CommandLine& line) {
     const auto options = std::make_shared<AuditArguments>();
     CLI::App& command = add_command(
@@ -131,6 +138,7 @@ void add_audit(CommandLine& line) {
         .add_option("--against", options->against,
                     "Verdicts of reviewers: the record must hold what they saw")
         ->type_name("VERDICTS.json");
+    add_signers(command, options->signers, "Verify the signatures of verdicts by ssh-keygen");
     command.add_flag("--replay", options->replay,
                      "Run the edits of the current state again as well");
     command.add_option("--html", options->html, "Write the record as a page")->type_name("FILE");
@@ -143,7 +151,7 @@ void add_summary(CLI::App& command, ReviewArguments& options) {
         "How far the reviewers of one or several projects agree, by operation: number of edits\n"
         "that two or more have decided, of their verdicts, share of agreement, and from 30 edits\n"
         "on Krippendorff's alpha with its 95 % interval. 'unsure' is no decision");
-    for (const char* other : {"--import", "--out", "--images", "--variant"})
+    for (const char* other : {"--import", "--signers", "--out", "--images", "--variant"})
         summary->excludes(command.get_option(other));
 }
 
@@ -169,6 +177,8 @@ void add_review(CommandLine& line) {
         .add_option("--import", options->imported,
                     "Enter the verdicts that a reviewer has saved, once each")
         ->type_name("VERDICTS.json");
+    add_signers(command, options->signers,
+                "Verify signatures by ssh-keygen, and refuse to enter verdicts without one");
     command
         .add_option("--out", options->page,
                     "Write one self-contained page with the variant's edits, for any browser")

@@ -18,6 +18,7 @@
 #include "workbench/review/page_queue.h"
 #include "workbench/review/review_json.h"
 #include "workbench/review/review_page.h"
+#include "workbench/review/verdict_import.h"
 #include "workbench/session/edit_place.h"
 
 namespace vesselbench {
@@ -27,7 +28,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::string verdict_words(const GivenVerdict& given) {
-    std::string text = given.reviewer + ": " + to_string(given.verdict);
+    std::string text = given.reviewer;
+    if (given.signature.state != SignatureState::None)
+        text += " (" + signature_words(given.signature) + ")";
+    text += ": " + to_string(given.verdict);
     if (given.outdated) text += " (outdated)";
     return text + (given.comment.empty() ? "" : ", \"" + given.comment + "\"");
 }
@@ -87,17 +91,20 @@ void review_project(const ReviewArguments& arguments, const Progress& progress) 
     Session session = Session::open(arguments.projects.front(), {.find = find_operation});
     Json imported = Json::array();
     for (const std::string& file : arguments.imported) {
-        const ImportedVerdicts done = import_verdicts(session, file);
+        const ImportedVerdicts done = import_verdicts(session, file, arguments.signers, progress);
         remark(bare_name(file) + ": " + imported_words(done));
         imported.push_back({{"file", bare_name(file)},
                             {"reviewer", done.verdicts.reviewer},
                             {"verdicts", done.verdicts.edits.size()},
                             {"outdated", done.outdated},
-                            {"known", done.known}});
+                            {"known", done.known},
+                            {"signature", signature_json(done.signature)}});
     }
     Json queue;
     if (!arguments.page.empty()) queue = write_page(session, arguments, progress);
-    const Review review = review_of(session);
+    const Review review =
+        review_of(session.project(), session.log(),
+                  entered_verdicts(session.project(), arguments.signers, progress));
     if (!arguments.json) return print_review(review);
     Json json = {{"project", session.project().name()},
                  {"id", session.project().id()},

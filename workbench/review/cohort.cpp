@@ -7,8 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/errors.h"
-#include "workbench/project/project.h"
-#include "workbench/review/verdicts.h"
+#include "workbench/review/entered_verdicts.h"
 
 namespace vesselbench {
 
@@ -41,13 +40,11 @@ JudgedEdits judged_in(const std::filesystem::path& path) {
     const ProjectFile project = ProjectFile::open_to_read(path, "its verdicts are counted");
     const std::string id = project.id();
     JudgedEdits edits;
-    for (const std::string& text : project.verdicts()) {
-        const VerdictFile file = verdicts_from_text(text, "the stored verdicts");
-        for (const EditVerdict& verdict : file.edits)
+    for (const EnteredVerdicts& entered : entered_verdicts(project))
+        for (const EditVerdict& verdict : entered.verdicts.edits)
             if (verdict.verdict != Verdict::None)
-                add(edits, {id, verdict.edit, verdict.hash}, file.reviewer,
+                add(edits, {id, verdict.edit, verdict.hash}, entered.verdicts.reviewer,
                     {verdict.time, verdict.verdict});
-    }
     std::set<EditRef> refs;
     for (const auto& [key, edit] : edits) refs.insert(std::get<EditRef>(key));
     const auto records = project.edits({refs.begin(), refs.end()});

@@ -8,14 +8,34 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+const char* state_word(SignatureState state) {
+    switch (state) {
+        case SignatureState::Unverified:
+            return "unverified";
+        case SignatureState::Verified:
+            return "verified";
+        case SignatureState::Invalid:
+            return "invalid";
+        case SignatureState::None:
+            break;
+    }
+    return "none";
+}
+
 Json verdict_json(const GivenVerdict& given) {
     return {{"reviewer", given.reviewer}, {"role", given.role},
             {"time", given.time},         {"verdict", to_string(given.verdict)},
             {"comment", given.comment},   {"revision", given.revision},
-            {"outdated", given.outdated}};
+            {"outdated", given.outdated}, {"signature", signature_json(given.signature)}};
 }
 
 }  // namespace
+
+Json signature_json(const Signature& signature) {
+    return {{"state", state_word(signature.state)},
+            {"signer", signature.signer},
+            {"problem", signature.problem}};
+}
 
 Json verdicts_json(const std::vector<GivenVerdict>& verdicts) {
     Json list = Json::array();

@@ -8,7 +8,11 @@
 
 namespace vesselbench {
 
-/// A list of {"reviewer", "role", "time", "verdict", "comment", "revision", "outdated"}.
+/// {"state", "signer", "problem"}; the state is "none", "unverified", "verified" or "invalid".
+[[nodiscard]] nlohmann::ordered_json signature_json(const Signature& signature);
+
+/// A list of {"reviewer", "role", "time", "verdict", "comment", "revision", "outdated",
+/// "signature"}.
 [[nodiscard]] nlohmann::ordered_json verdicts_json(const std::vector<GivenVerdict>& verdicts);
 
 /// A review as JSON: every edit of the current state with its verdicts.

@@ -55,6 +55,7 @@ Json reviewers_json(const Review& review) {
     struct Counts {
         std::string role;
         std::map<std::string, int> verdicts;
+        std::set<std::string> signatures;
     };
 
     std::map<std::string, Counts> reviewers;
@@ -62,17 +63,21 @@ Json reviewers_json(const Review& review) {
         for (const GivenVerdict& given : edit.verdicts) {
             Counts& counts = reviewers[given.reviewer];
             counts.role = given.role;
+            counts.signatures.insert(signature_words(given.signature));
             ++counts.verdicts[given.outdated ? "outdated" : to_string(given.verdict)];
         }
     Json list = Json::array();
     for (const auto& [name, counts] : reviewers)
-        list.push_back({{"name", name}, {"role", counts.role}, {"verdicts", counts.verdicts}});
+        list.push_back({{"name", name},
+                        {"role", counts.role},
+                        {"verdicts", counts.verdicts},
+                        {"signatures", counts.signatures}});
     return list;
 }
 
 }  // namespace
 
-Json statement_of(const Session& session, const OperationLookup& find) {
+Json statement_of(const Session& session, const Review& review, const OperationLookup& find) {
     std::set<std::string> versions, operators;
     Json sources = Json::array(), segmentation = Json::array(), edits = Json::array();
     for (const LogEntry& entry : session.log()) {
@@ -84,7 +89,6 @@ Json statement_of(const Session& session, const OperationLookup& find) {
         if (operation != nullptr && operation->recipe.makes_source)
             segmentation.push_back(edits.back());
     }
-    const Review review = review_of(session);
     return {{"program_versions", versions},  {"sources", sources},
             {"segmentation", segmentation},  {"edits", edits},
             {"operators", operators},        {"reviewers", reviewers_json(review)},
