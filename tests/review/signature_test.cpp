@@ -142,6 +142,37 @@ SCENARIO("A signature is verified against allowed signers", "[review][signature]
     }
 }
 
+SCENARIO("Where signatures are required, only signed acceptances count", "[review][signature]") {
+    if (!can_sign()) return;
+    const SignedReview review;
+    Session session = Session::open(review.project, options());
+    const auto missing = [&](std::size_t reviewers) {
+        return missing_acceptance(review_of(session.project(), session.log(),
+                                            without_unsigned_acceptances(entered_verdicts(
+                                                session.project(), review.signers))),
+                                  reviewers);
+    };
+    const auto enter = [&](const std::string& reviewer, Verdict verdict, const std::string& key) {
+        const std::string file =
+            save_verdicts(review.project, verdicts_on(session, reviewer, verdict));
+        if (!key.empty()) sign(file, key);
+        import_verdicts(session, file);
+    };
+    enter("B. Roth", Verdict::Accept, "");
+    enter("C. Lang", Verdict::Accept, new_signing_key());
+    CHECK(missing(1).size() == 3);
+    import_verdicts(session, review.file);
+    CHECK(missing(1).empty());
+    THEN("a key signs for one reviewer, whatever names it gives") {
+        enter("D. Moser", Verdict::Accept, review.key);
+        CHECK_THAT(missing(2).at(0), Contains("accepted by 1 of 2"));
+    }
+    THEN("a rejection counts although nobody signed it") {
+        enter("B. Roth", Verdict::Reject, "");
+        CHECK_THAT(missing(1).at(0), Contains("disputed"));
+    }
+}
+
 SCENARIO("A signature lies beside the verdicts", "[review][signature][hostile]") {
     const std::string file = temporary_folder() + "/verdicts.json";
     write_file(file, "{}");

@@ -232,6 +232,7 @@ struct ExportArguments {
     std::string variant;                ///< empty: variant_of()
     std::vector<std::string> settings;  ///< "openfoam.parameter=value"
     std::string required;               ///< "accepted", "accepted=2"; empty: nothing
+    std::string signers;  ///< allowed ones, who sign acceptances; empty: none need be signed
     bool json = false;
 };
 

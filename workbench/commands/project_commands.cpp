@@ -121,8 +121,8 @@ void add_replay(CommandLine& line) {
     add_json(command, options->json);
 }
 
-void add_signers(CLI::App& command, std::string& signers, const std::string& help) {
-    command
+CLI::Option* add_signers(CLI::App& command, std::string& signers, const std::string& help) {
+    return command
         .add_option("--signers", signers,
                     help + "\n(the file: ALLOWED SIGNERS in ssh-keygen's manual)")
         ->type_name("ALLOWED_SIGNERS");
@@ -227,6 +227,9 @@ void add_export(CommandLine& line) {
                     "accepted, accepted=2: refuse unless so many reviewers have accepted every\n"
                     "edit of the model")
         ->type_name("REVIEW");
+    add_signers(command, options->signers,
+                "Of acceptances, count those only that an allowed signer has signed")
+        ->needs(command.get_option("--require"));
     add_json(command, options->json);
 }
 

@@ -12,4 +12,14 @@ std::vector<EnteredVerdicts> entered_verdicts(const ProjectFile& project,
     return entered;
 }
 
+std::vector<EnteredVerdicts> without_unsigned_acceptances(std::vector<EnteredVerdicts> entered) {
+    for (auto& [verdicts, signature] : entered) {
+        if (signature.state == SignatureState::Verified) continue;
+        for (EditVerdict& verdict : verdicts.edits)
+            if (verdict.verdict == Verdict::Accept) verdict.verdict = Verdict::None;
+        if (verdicts.overall == Verdict::Accept) verdicts.overall = Verdict::None;
+    }
+    return entered;
+}
+
 }  // namespace vesselbench

@@ -22,4 +22,9 @@ struct EnteredVerdicts {
     const ProjectFile& project, const std::filesystem::path& signers = {},
     const Progress& progress = {});
 
+/// What counts where signatures are required: acceptances only if their signature verifies, other
+/// verdicts always.
+[[nodiscard]] std::vector<EnteredVerdicts> without_unsigned_acceptances(
+    std::vector<EnteredVerdicts> entered);
+
 }  // namespace vesselbench

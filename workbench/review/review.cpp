@@ -99,22 +99,30 @@ std::string edit_words(const ReviewedEdit& edit) {
     return std::to_string(edit.edit.id) + " " + printable(edit.operation);
 }
 
+/// Who accepts an edit: by their keys where those are known, else by name.
+std::set<std::string> accepting(const ReviewedEdit& edit) {
+    std::set<std::string> who;
+    for (const auto& given : edit.verdicts)
+        if (!given.outdated && given.verdict == Verdict::Accept)
+            who.insert(given.signature.signer.empty() ? given.reviewer : given.signature.signer);
+    return who;
+}
+
 /// "rejected by A. Kern", "accepted by 1 of 2"
 std::string lack_of(const ReviewedEdit& edit, std::size_t reviewers) {
     if (edit.status != ReviewStatus::Rejected && edit.status != ReviewStatus::Accepted)
         return to_string(edit.status);
+    if (edit.status == ReviewStatus::Accepted)
+        return "accepted by " + std::to_string(accepting(edit).size()) + " of " +
+               std::to_string(reviewers);
     std::vector<std::string> names;
     for (const GivenVerdict& given : edit.verdicts)
         if (!given.outdated && decides(given.verdict)) names.push_back(printable(given.reviewer));
-    if (edit.status == ReviewStatus::Rejected) return "rejected by " + enumerated(names);
-    return "accepted by " + std::to_string(names.size()) + " of " + std::to_string(reviewers);
+    return "rejected by " + enumerated(names);
 }
 
 bool is_accepted(const ReviewedEdit& edit, std::size_t reviewers) {
-    const auto accepts = std::ranges::count_if(edit.verdicts, [](const GivenVerdict& given) {
-        return !given.outdated && given.verdict == Verdict::Accept;
-    });
-    return edit.status == ReviewStatus::Accepted && static_cast<std::size_t>(accepts) >= reviewers;
+    return edit.status == ReviewStatus::Accepted && accepting(edit).size() >= reviewers;
 }
 
 }  // namespace

@@ -66,9 +66,9 @@ struct Review {
 [[nodiscard]] Review review_of(const Session& session, const std::string& variant);
 
 /// The review of a log's edits by what was entered.
-/// \param entered oldest first
+/// \param files that were entered, oldest first
 [[nodiscard]] Review review_of(const ProjectFile& project, const std::vector<LogEntry>& log,
-                               const std::vector<EnteredVerdicts>& entered);
+                               const std::vector<EnteredVerdicts>& files);
 
 /// Of all its edits and of the verdicts on the whole: rejected before disputed, outdated, open,
 /// accepted.
@@ -77,8 +77,8 @@ struct Review {
 /// One line: "accepted by A. Kern, B. Roth"; "open: 2 of 5 edits are accepted".
 [[nodiscard]] std::string review_words(const Review& review);
 
-/// What is missing until `reviewers` have accepted every edit and nobody has rejected one, or the
-/// whole: "2 smooth (open)". Empty: nothing.
+/// What is missing until `reviewers`, of whom one key signs for one only, have accepted every edit
+/// and nobody has rejected one, or the whole: "2 smooth (open)". Empty: nothing.
 [[nodiscard]] std::vector<std::string> missing_acceptance(const Review& review,
                                                           std::size_t reviewers);
 
