@@ -560,6 +560,7 @@ constexpr CatalogueText kTexts[] = {
     {"record-other-project",
      "{file}: {reviewer} reviewed {name}, a project with another id: it is another project, or the "
      "record of this one was begun anew"},
+    {"signature-invalid", "the signature of the verdicts of {reviewer}, does not verify: {reason}"},
     {"replay-differs", "replaying {name} gives another result than the stored one: {differences}"},
     {"no-review-page",
      "this program was built without npm, which bundles the review page: install nodejs and npm, "

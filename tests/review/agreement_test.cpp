@@ -49,8 +49,19 @@ SCENARIO("Agreement has limits", "[review][agreement]") {
         }
         const Agreement found = agreement_of(units_of({one, other}));
         CHECK(found.units == 60);
-        CHECK(found.lower.value() < found.alpha.value());
-        CHECK(found.upper.value() > found.alpha.value());
+        CHECK(found.values == 120);
+        CHECK(found.alpha.value() == Approx(0.725).margin(0.001));
+        // 1 minus observed over expected disagreement, drawn 4,000 times by another generator.
+        CHECK(found.lower.value() == Approx(0.542).margin(0.03));
+        CHECK(found.upper.value() == Approx(0.892).margin(0.03));
         CHECK(found.lower == agreement_of(units_of({one, other})).lower);
+    }
+    THEN("one disagreement, which many draws miss, gives no interval") {
+        const std::string accepts(39, 'a');
+        const Agreement found = agreement_of(units_of({"a" + accepts, "r" + accepts}));
+        CHECK(found.share.value() == Approx(39.0 / 40.0));
+        CHECK(found.alpha.value() == Approx(0.0).margin(0.05));
+        CHECK_FALSE(found.lower.has_value());
+        CHECK_FALSE(found.upper.has_value());
     }
 }

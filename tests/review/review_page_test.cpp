@@ -82,7 +82,7 @@ SCENARIO("Texts of a project cannot leave the page's data", "[review]") {
     Session session = opened(project);
     std::string page;
     try {
-        page = review_page(session, kDefaultVariant, find_test_operation);
+        page = review_page(session, kDefaultVariant, find_test_operation).html;
     } catch (const AlgorithmFailure& failure) {
         WARN("skipped: " << failure.what());
         return;

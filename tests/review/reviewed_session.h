@@ -3,6 +3,7 @@
 #include <string>
 
 #include "workbench/review/review.h"
+#include "workbench/review/verdict_import.h"
 
 namespace vesselbench::test {
 

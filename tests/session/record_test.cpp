@@ -40,7 +40,7 @@ std::string full_project() {
     store_spots(file, {{.name = "top", .point = kTop, .normal = Vec3::UnitZ()}});
     write_file(folder + "/model.stl", "solid");
     record_export(session, folder + "/model.stl", "cfd");
-    session.add_verdicts(R"({"a":"b"})", std::string(64, 'a'),
+    session.add_verdicts({R"({"a":"b"})", "signature"}, std::string(64, 'a'),
                          {.kind = "verdicts", .subject = "A. Kern", .facts = "{}"});
     return file;
 }
@@ -261,7 +261,7 @@ SCENARIO("What fails is not entered", "[session][record]") {
     const std::string head = session.project().record_head();
     CHECK_THROWS(session.apply("bump", {{"at", Vec3(1e5, 0, 0)}, {"reach", 1.0}, {"height", 1.0}}));
     CHECK(session.project().record_head() == head);
-    CHECK_FALSE(session.add_verdicts(R"({"a":"b"})", std::string(64, 'a'),
+    CHECK_FALSE(session.add_verdicts({R"({"a":"b"})", "signature"}, std::string(64, 'a'),
                                      {.kind = "verdicts", .subject = "A. Kern", .facts = "{}"}));
     CHECK(session.project().record_head() == head);
 }

@@ -8,6 +8,7 @@
 #include "tests/support/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
+#include "tests/support/signing.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;
@@ -112,6 +113,84 @@ SCENARIO("An export can require that reviewers have accepted the model",
     THEN("wrong words are wrong usage") {
         for (const char* word : {"accept", "accepted=", "accepted=0", "accepted=x", "accepted=2x"})
             CHECK(run({"export", project, folder + "/out.stl", "--require", word}).exit_code == 2);
+    }
+}
+
+SCENARIO("The agreement of reviewers is printed over several projects",
+         "[workbench][command-line][review]") {
+    const std::string folder = temporary_folder(), project = new_project(folder);
+    const std::string other = new_project(temporary_folder());
+    for (const std::string& judged : {project, other})
+        for (const char* reviewer : {"A. Kern", "B. Roth"})
+            REQUIRE(run({"review", judged, "--import",
+                         verdicts(judged, reviewer, "accept", folder + "/v.json")})
+                        .exit_code == 0);
+    const ProgramRun good = run({"review", "--summary", project, other});
+    CHECK(good.exit_code == 0);
+    CHECK_THAT(good.out, Contains("2 projects, 2 reviewers: A. Kern, B. Roth") &&
+                             Contains("load-surface") && Contains("too few"));
+    const Json json = json_of({"review", project, "--summary"});
+    CHECK(json["all"]["edits"] == 2);
+    CHECK(json["all"]["share"] == 1.0);
+    THEN("what cannot be read is named, and the others are counted") {
+        write_file(folder + "/damaged.vbench", "damaged");
+        const std::vector<std::string> mixed = {"review", "--summary", folder + "/damaged.vbench",
+                                                project};
+        const ProgramRun bad = run(mixed);
+        CHECK(bad.exit_code == 3);
+        CHECK_THAT(bad.err, Contains(folder + "/damaged.vbench"));
+        CHECK_THAT(bad.out, Contains("1 project, 2 reviewers"));
+        CHECK(json_of(mixed)["unread"][0]["project"] == folder + "/damaged.vbench");
+        CHECK(json_of(mixed)["all"]["edits"] == 2);
+    }
+    THEN("it goes with nothing else, and everything else with one project") {
+        CHECK(run({"review", project, other}).exit_code == 2);
+        CHECK(run({"review", "--summary"}).exit_code == 2);
+        CHECK(run({"review", "--summary", project, "--import", folder + "/v.json"}).exit_code == 2);
+        CHECK(run({"review", project, "--import", folder + "/v.json", folder + "/v.json"})
+                  .exit_code == 0);
+    }
+}
+
+SCENARIO("Signed verdicts are verified against allowed signers",
+         "[workbench][command-line][review]") {
+    if (!can_sign()) return;
+    const std::string folder = temporary_folder(), project = new_project(folder);
+    const std::string key = new_signing_key(),
+                      signers = allowed_signers(allowed_line("kern@clinic.example", key)),
+                      others = allowed_signers(allowed_line("roth", new_signing_key()));
+    const std::string kern = verdicts(project, "A. Kern", "accept", folder + "/kern.json");
+    const auto import_with = [&](const std::string& allowed) {
+        return run({"review", project, "--import", kern, "--signers", allowed});
+    };
+    ProgramRun refused = import_with(signers);
+    CHECK(refused.exit_code == 3);
+    CHECK_THAT(refused.err, Contains("kern.json is not signed"));
+    sign(kern, key);
+    refused = import_with(others);
+    CHECK(refused.exit_code == 3);
+    CHECK_THAT(refused.err, Contains("its signature does not verify"));
+    CHECK(json_of({"review", project})["files"] == 0);
+    WHEN("they are entered with their signature") {
+        CHECK_THAT(import_with(signers).out,
+                   Contains("A. Kern (signed by kern@clinic.example): accept"));
+        CHECK_THAT(run({"review", project}).out, Contains("A. Kern (signed, not verified)"));
+        CHECK_THAT(run({"audit", project}).out, Contains("signed, not verified"));
+        const ProgramRun good = run({"audit", project, "--signers", signers});
+        CHECK(good.exit_code == 0);
+        CHECK_THAT(good.out, Contains("A. Kern (radiologist), signed by kern@clinic.example"));
+        const std::vector<std::string> by_others = {"audit", project, "--signers", others};
+        CHECK(run(by_others).exit_code == 1);
+        CHECK(json_of(by_others)["diagnostics"][0]["code"] == "signature-invalid");
+        CHECK(run({"audit", project, "--signers", folder + "/none"}).exit_code == 3);
+    }
+    WHEN("there is no ssh-keygen, it is named, and nothing is entered") {
+        const ProgramRun without =
+            run_program(program_path(), {"review", project, "--import", kern, "--signers", signers},
+                        "PATH=/nowhere");
+        CHECK(without.exit_code == 3);
+        CHECK_THAT(without.err, Contains("ssh-keygen") && Contains("openssh-client"));
+        CHECK(json_of({"review", project})["files"] == 0);
     }
 }
 

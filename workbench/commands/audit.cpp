@@ -1,5 +1,6 @@
 #include "workbench/review/audit.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 
@@ -72,7 +73,8 @@ void print_statement(const Json& statement) {
     rows.push_back({"operators", names_of(statement["operators"])});
     for (const Json& reviewer : statement["reviewers"])
         rows.push_back({"reviewer", reviewer["name"].get<std::string>() + " (" +
-                                        reviewer["role"].get<std::string>() + ")"});
+                                        reviewer["role"].get<std::string>() + "), " +
+                                        names_of(reviewer["signatures"])});
     rows.push_back({"review", statement["review"].get<std::string>()});
     rows.push_back({"program", "vesselbench " + names_of(statement["program_versions"])});
     std::cout << as_columns(rows) << "\n";
@@ -94,7 +96,16 @@ void print_audit(const Audit& audit) {
     std::cout << "\n";
     print_list("verified:", audit.verified);
     print_list("cannot be verified:", audit.unverified);
-    print_list("NOT AS RECORDED:", worded(audit.findings));
+    print_list("DOES NOT VERIFY:", worded(audit.findings));
+}
+
+std::string what_is_wrong(const std::vector<Diagnostic>& findings) {
+    const bool altered = std::ranges::any_of(
+        findings, [](const Diagnostic& finding) { return finding.code != "signature-invalid"; });
+    return std::string(altered ? "the project is not what its record says: " : "") +
+           worded(findings.front()) +
+           (findings.size() > 1 ? " (and " + counted(findings.size() - 1, "more finding") + ")"
+                                : "");
 }
 
 }  // namespace
@@ -102,6 +113,7 @@ void print_audit(const Audit& audit) {
 bool audit_project(const AuditArguments& arguments, const Progress& progress) {
     const Audit made = audit({.project = arguments.project,
                               .against = {arguments.against.begin(), arguments.against.end()},
+                              .signers = arguments.signers,
                               .replay = arguments.replay,
                               .find = find_operation},
                              progress);
@@ -115,10 +127,7 @@ bool audit_project(const AuditArguments& arguments, const Progress& progress) {
     else
         print_audit(made);
     if (made.findings.empty()) return true;
-    complain("the project is not what its record says: " + worded(made.findings.front()) +
-             (made.findings.size() > 1
-                  ? " (and " + counted(made.findings.size() - 1, "more finding") + ")"
-                  : ""));
+    complain(what_is_wrong(made.findings));
     return false;
 }
 

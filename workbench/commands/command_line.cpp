@@ -133,11 +133,11 @@ const CLI::Option* given_option(const CLI::App& app, const char* name) {
     return found != nullptr && found->count() > 0 ? found : nullptr;
 }
 
-/// The project that the command works on; empty: none.
+/// The project that the command works on; empty: none, or several.
 std::string project_of(const CLI::App& app) {
     const auto value = [&](const char* name) {
         const CLI::Option* given = given_option(app, name);
-        return given != nullptr ? given->as<std::string>() : "";
+        return given != nullptr && given->count() == 1 ? given->as<std::string>() : "";
     };
     if (app.got_subcommand("prepare"))
         return (std::filesystem::path(value("--out")) / "project.vbench").string();

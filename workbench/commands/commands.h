@@ -232,6 +232,7 @@ struct ExportArguments {
     std::string variant;                ///< empty: variant_of()
     std::vector<std::string> settings;  ///< "openfoam.parameter=value"
     std::string required;               ///< "accepted", "accepted=2"; empty: nothing
+    std::string signers;  ///< allowed ones, who sign acceptances; empty: none need be signed
     bool json = false;
 };
 
@@ -242,6 +243,7 @@ struct AuditArguments {
     std::string project;
     std::string html;                  ///< file to write; empty: none
     std::vector<std::string> against;  ///< files of verdicts
+    std::string signers;               ///< file of allowed signers; empty: nothing is verified
     bool replay = false;
     bool json = false;
 };
@@ -250,13 +252,19 @@ struct AuditArguments {
 bool audit_project(const AuditArguments& arguments, const Progress& progress);
 
 struct ReviewArguments {
-    std::string project;
+    std::vector<std::string> projects;  ///< one, or with `summary` any number
     std::vector<std::string> imported;  ///< files of verdicts
+    std::string signers;                ///< file of allowed signers; empty: nothing is verified
     std::string page;                   ///< to be written for reviewers; empty: none
     std::string images = "contours";    ///< of the page: off, contours or slices
     std::string variant;                ///< of the page; empty: the only one, or the usual one
+    bool summary = false;               ///< how far the reviewers of all projects agree
     bool json = false;
 };
+
+/// Prints by operation how far reviewers agree, over several projects.
+/// \return false if one could not be read: the others are counted
+bool summarize_reviews(const ReviewArguments& arguments, const Progress& progress);
 
 /// Enters reviewers' verdicts, lists how every edit was judged, and writes the page on which
 /// reviewers look at them.

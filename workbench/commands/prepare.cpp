@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <iostream>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -135,7 +136,10 @@ void export_project(const ExportArguments& arguments, const Progress& progress) 
     const std::string variant =
         variant_of(arguments.project, arguments.variant, *session.snapshot()->history);
     const Scene scene = session.scene(variant, progress.part(0.0, 0.7));
-    const Review review = review_of(session, variant);
+    std::vector<EnteredVerdicts> verdicts =
+        entered_verdicts(session.project(), arguments.signers, progress);
+    if (!arguments.signers.empty()) verdicts = without_unsigned_acceptances(std::move(verdicts));
+    const Review review = review_of(session.project(), session.log(variant), verdicts);
     if (reviewers > 0) require_accepted(review, reviewers);
     for (const LogEntry& entry : session.log(variant))
         if (entry.status == EditStatus::Stale)

@@ -121,6 +121,13 @@ void add_replay(CommandLine& line) {
     add_json(command, options->json);
 }
 
+CLI::Option* add_signers(CLI::App& command, std::string& signers, const std::string& help) {
+    return command
+        .add_option("--signers", signers,
+                    help + "\n(the file: ALLOWED SIGNERS in ssh-keygen's manual)")
+        ->type_name("ALLOWED_SIGNERS");
+}
+
 void add_audit(CommandLine& line) {
     const auto options = std::make_shared<AuditArguments>();
     CLI::App& command = add_command(
@@ -131,10 +138,27 @@ void add_audit(CommandLine& line) {
         .add_option("--against", options->against,
                     "Verdicts of reviewers: the record must hold what they saw")
         ->type_name("VERDICTS.json");
+    add_signers(command, options->signers, "Verify the signatures of verdicts by ssh-keygen");
     command.add_flag("--replay", options->replay,
                      "Run the edits of the current state again as well");
     command.add_option("--html", options->html, "Write the record as a page")->type_name("FILE");
     add_json(command, options->json);
+}
+
+void add_summary(CLI::App& command, ReviewArguments& options) {
+    CLI::Option* summary = command.add_flag(
+        "--summary", options.summary,
+        "How far the reviewers of one or several projects agree, by operation: number of edits\n"
+        "that two or more have decided, of their verdicts, share of agreement, and from 30 edits\n"
+        "on Krippendorff's alpha with its 95 % interval. 'unsure' is no decision");
+    for (const char* other : {"--import", "--signers", "--out", "--images", "--variant"})
+        summary->excludes(command.get_option(other));
+}
+
+/// \return the exit code
+int run_review(const ReviewArguments& options, const Progress& progress) {
+    if (options.summary) return summarize_reviews(options, progress) ? 0 : 3;
+    return review_project(options, progress), 0;
 }
 
 void add_review(CommandLine& line) {
@@ -142,13 +166,19 @@ void add_review(CommandLine& line) {
     CLI::App& command =
         add_command(line, "review",
                     "Write the page on which experts review the edits; enter their verdicts; list "
-                    "how every edit was judged",
-                    [options, &line] { return review_project(*options, line.progress), 0; });
-    add_project(command, options->project);
+                    "how every edit was judged, or how far reviewers agree",
+                    [options, &line] { return run_review(*options, line.progress); });
+    command
+        .add_option("PROJECT", options->projects,
+                    "Project file (.vbench); with --summary one or several")
+        ->required()
+        ->type_name("");
     command
         .add_option("--import", options->imported,
                     "Enter the verdicts that a reviewer has saved, once each")
         ->type_name("VERDICTS.json");
+    add_signers(command, options->signers,
+                "Verify signatures by ssh-keygen, and refuse to enter verdicts without one");
     command
         .add_option("--out", options->page,
                     "Write one self-contained page with the variant's edits, for any browser")
@@ -159,6 +189,7 @@ void add_review(CommandLine& line) {
                     "slices of the image as well")
         ->check(CLI::IsMember({"off", "contours", "slices"}));
     add_variant(command, options->variant, "Variant of the page: cfd, rp or a name");
+    add_summary(command, *options);
     add_json(command, options->json);
 }
 
@@ -196,6 +227,9 @@ void add_export(CommandLine& line) {
                     "accepted, accepted=2: refuse unless so many reviewers have accepted every\n"
                     "edit of the model")
         ->type_name("REVIEW");
+    add_signers(command, options->signers,
+                "Of acceptances, count those only that an allowed signer has signed")
+        ->needs(command.get_option("--require"));
     add_json(command, options->json);
 }
 

@@ -16,8 +16,9 @@
 #include "workbench/operations/table.h"
 #include "workbench/project/project.h"
 #include "workbench/review/page_queue.h"
+#include "workbench/review/review_json.h"
 #include "workbench/review/review_page.h"
-#include "workbench/review/statement.h"
+#include "workbench/review/verdict_import.h"
 #include "workbench/session/edit_place.h"
 
 namespace vesselbench {
@@ -27,7 +28,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::string verdict_words(const GivenVerdict& given) {
-    std::string text = given.reviewer + ": " + to_string(given.verdict);
+    std::string text = given.reviewer;
+    if (given.signature.state != SignatureState::None)
+        text += " (" + signature_words(given.signature) + ")";
+    text += ": " + to_string(given.verdict);
     if (given.outdated) text += " (outdated)";
     return text + (given.comment.empty() ? "" : ", \"" + given.comment + "\"");
 }
@@ -56,18 +60,19 @@ PageImages images_of(const std::string& word) {
     return word == "slices" ? PageImages::Slices : PageImages::Contours;
 }
 
-/// Written beside its place and renamed, as all results are.
-void write_page(Session& session, const ReviewArguments& arguments, const Progress& progress) {
+/// Written beside its place and renamed, as all results are. \return the page's queue
+Json write_page(Session& session, const ReviewArguments& arguments, const Progress& progress) {
     if (std::filesystem::exists(arguments.page) && session.is_source(arguments.page))
         throw UsageError(bare_name(arguments.page) + " is a file that the case was made from");
     const std::string variant = variant_meant(arguments.variant, *session.snapshot()->history);
-    const std::string page =
+    const ReviewPage page =
         review_page(session, variant, find_operation, images_of(arguments.images), progress);
     PendingFiles files;
-    (void)files.add_text(arguments.page, page);
+    (void)files.add_text(arguments.page, page.html);
     files.commit();
     remark(bare_name(arguments.page) + ": a page for reviewers, " +
-           formatted(static_cast<double>(page.size()) / 1e6, "%.1f MB"));
+           formatted(static_cast<double>(page.html.size()) / 1e6, "%.1f MB"));
+    return page.queue;
 }
 
 /// What a reviewer should look at first, as the page lists it.
@@ -81,26 +86,32 @@ Json queue_of(Session& session, const std::string& variant_asked, const Progress
 }  // namespace
 
 void review_project(const ReviewArguments& arguments, const Progress& progress) {
-    Session session = Session::open(arguments.project, {.find = find_operation});
+    if (arguments.projects.size() != 1)
+        throw UsageError("one project is reviewed at a time; several are given to --summary only");
+    Session session = Session::open(arguments.projects.front(), {.find = find_operation});
     Json imported = Json::array();
     for (const std::string& file : arguments.imported) {
-        const ImportedVerdicts done = import_verdicts(session, file);
+        const ImportedVerdicts done = import_verdicts(session, file, arguments.signers, progress);
         remark(bare_name(file) + ": " + imported_words(done));
         imported.push_back({{"file", bare_name(file)},
                             {"reviewer", done.verdicts.reviewer},
                             {"verdicts", done.verdicts.edits.size()},
                             {"outdated", done.outdated},
-                            {"known", done.known}});
+                            {"known", done.known},
+                            {"signature", signature_json(done.signature)}});
     }
-    if (!arguments.page.empty()) write_page(session, arguments, progress);
-    const Review review = review_of(session);
+    Json queue;
+    if (!arguments.page.empty()) queue = write_page(session, arguments, progress);
+    const Review review =
+        review_of(session.project(), session.log(),
+                  entered_verdicts(session.project(), arguments.signers, progress));
     if (!arguments.json) return print_review(review);
     Json json = {{"project", session.project().name()},
                  {"id", session.project().id()},
                  {"head", session.project().record_head()},
                  {"imported", imported}};
     json.update(review_json(review));
-    json["queue"] = queue_of(session, arguments.variant, progress);
+    json["queue"] = arguments.page.empty() ? queue_of(session, arguments.variant, progress) : queue;
     std::cout << text_from_json(json, 2) << "\n";
 }
 

@@ -65,6 +65,12 @@ std::string ContentHash::hex() {
     return text;
 }
 
+std::string hash_of_text(std::string_view text) {
+    ContentHash hash;
+    hash.add(std::as_bytes(std::span(text)));
+    return hash.hex();
+}
+
 std::string hash_of_file(const std::filesystem::path& path) {
     if (!std::filesystem::is_directory(path)) return hash_of_regular_file(path);
     std::vector<std::filesystem::path> files;

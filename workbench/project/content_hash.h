@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace vesselbench {
 
@@ -25,6 +26,9 @@ private:
     struct State;
     std::unique_ptr<State> state_;
 };
+
+/// SHA-256 of a text, as ContentHash::hex().
+[[nodiscard]] std::string hash_of_text(std::string_view text);
 
 /// SHA-256 of a file's content; of a folder: of the digests of its regular files, in the order of
 /// their names.

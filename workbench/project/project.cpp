@@ -336,16 +336,16 @@ void ProjectFile::record(const OutsideEntry& entry) {
     transaction.commit();
 }
 
-bool ProjectFile::add_verdicts(const std::string& text, const std::string& hash,
+bool ProjectFile::add_verdicts(const StoredVerdicts& verdicts, const std::string& hash,
                                const OutsideEntry& entry) {
     parts_->check_writable();
     Transaction transaction(parts_->database);
-    const bool are_new = insert_verdicts(parts_->database, text, hash, parts_->entry_of(entry));
+    const bool are_new = insert_verdicts(parts_->database, verdicts, hash, parts_->entry_of(entry));
     transaction.commit();
     return are_new;
 }
 
-std::vector<std::string> ProjectFile::verdicts() const {
+std::vector<StoredVerdicts> ProjectFile::verdicts() const {
     return read_verdicts(parts_->database);
 }
 

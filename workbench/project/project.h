@@ -15,6 +15,7 @@
 #include "workbench/case/history.h"
 #include "workbench/case/scene.h"
 #include "workbench/project/source_file.h"
+#include "workbench/project/stored_verdicts.h"
 
 namespace vesselbench {
 
@@ -111,14 +112,16 @@ public:
     /// Enters something outside the project into its record. \throw IoError as commit()
     void record(const OutsideEntry& entry);
 
-    /// Enters a reviewer's verdicts, once. \param text JSON \param hash SHA-256 of what it says
+    /// Enters a reviewer's verdicts, once. \param verdicts their time is that of the call
+    /// \param hash SHA-256 of what they say
     /// \return false if these are entered already
     /// \throw IoError as commit()
-    bool add_verdicts(const std::string& text, const std::string& hash, const OutsideEntry& entry);
+    bool add_verdicts(const StoredVerdicts& verdicts, const std::string& hash,
+                      const OutsideEntry& entry);
 
-    /// The texts of the verdicts in the order they were entered.
+    /// The verdicts in the order they were entered.
     /// \throw InvalidInput if one is damaged
-    [[nodiscard]] std::vector<std::string> verdicts() const;
+    [[nodiscard]] std::vector<StoredVerdicts> verdicts() const;
 
     [[nodiscard]] History history() const;
 

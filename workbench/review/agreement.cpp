@@ -63,19 +63,20 @@ std::optional<double> krippendorff_alpha(const std::vector<RatedUnit>& units) {
 }
 
 Agreement agreement_of(const std::vector<RatedUnit>& units, std::uint64_t seed) {
-    constexpr int kDraws = 1000;
+    constexpr std::size_t kDraws = 1000, kMostWithoutAlpha = kDraws / 20;
     const std::vector<RatedUnit> kept = pairable(units);
     Agreement made{.units = kept.size(), .share = observed_agreement(kept)};
+    for (const RatedUnit& unit : kept) made.values += unit.size();
     if (kept.size() < kFewestUnits) return made;
     made.alpha = krippendorff_alpha(kept);
     std::mt19937_64 random(seed);
     std::vector<double> alphas;
     std::vector<RatedUnit> drawn(kept.size());
-    for (int draw = 0; draw < kDraws; ++draw) {
+    for (std::size_t draw = 0; draw < kDraws; ++draw) {
         for (RatedUnit& unit : drawn) unit = kept[random() % kept.size()];
         if (const auto alpha = krippendorff_alpha(drawn)) alphas.push_back(*alpha);
     }
-    if (!made.alpha || alphas.empty()) return made;
+    if (!made.alpha || alphas.size() < kDraws - kMostWithoutAlpha) return made;
     std::ranges::sort(alphas);
     made.lower = percentile(alphas, 0.025);
     made.upper = percentile(alphas, 0.975);

@@ -23,10 +23,13 @@ using RatedUnit = std::vector<std::string>;
 
 /// Alpha with its 95 % interval.
 struct Agreement {
-    std::size_t units = 0;               ///< with at least two verdicts
-    std::optional<double> share;         ///< observed_agreement()
-    std::optional<double> alpha;         ///< none also: fewer than kFewestUnits
-    std::optional<double> lower, upper;  ///< percentiles of the bootstrap over units
+    std::size_t units = 0;        ///< with at least two verdicts
+    std::size_t values = 0;       ///< their verdicts
+    std::optional<double> share;  ///< observed_agreement()
+    std::optional<double> alpha;  ///< none also: fewer than kFewestUnits
+    /// Percentiles of the bootstrap over units, which takes units as independent; none also: more
+    /// than one draw in 20 has verdicts of one kind only, and no alpha.
+    std::optional<double> lower, upper;
 };
 
 /// With fewer units, alpha depends on single verdicts.

@@ -31,14 +31,15 @@ std::int64_t entry_with(const RecordCheck& record, const std::string& hash) {
     return found == record.entries.end() ? 0 : found->number;
 }
 
+constexpr const char* kInProject = "verdicts in the project";
+
 std::vector<Witness> witnesses(const std::vector<std::filesystem::path>& files,
-                               const std::vector<std::string>& stored, const RecordCheck& record) {
+                               const std::vector<EnteredVerdicts>& entered,
+                               const RecordCheck& record) {
     std::vector<Witness> list;
     for (const std::filesystem::path& file : files)
         list.push_back({bare_name(file), verdicts_from_file(file)});
-    for (const std::string& text : stored)
-        list.push_back(
-            {"verdicts in the project", verdicts_from_text(text, "verdicts in the project")});
+    for (const EnteredVerdicts& one : entered) list.push_back({kInProject, one.verdicts});
     for (Witness& witness : list) witness.entry = entry_with(record, witness.verdicts.chain_head);
     return list;
 }
@@ -78,6 +79,19 @@ void check_witnesses(const std::vector<Witness>& all, Audit& audit) {
     }
 }
 
+void check_signatures(const std::vector<EnteredVerdicts>& entered, Audit& audit) {
+    for (const auto& [verdicts, signature] : entered) {
+        ++audit.signatures[signature.state];
+        const std::string of = printable(verdicts.reviewer) + ", " + verdicts.written;
+        if (signature.state == SignatureState::Verified)
+            audit.verified.push_back(std::string(kInProject) + ": those of " + of + ", are " +
+                                     printable(signature_words(signature)));
+        if (signature.state == SignatureState::Invalid)
+            audit.findings.push_back(finding(
+                "signature-invalid", {{"reviewer", of}, {"reason", printable(signature.problem)}}));
+    }
+}
+
 void check_replay(Session& session, Audit& audit, const Progress& progress) {
     std::size_t same = 0;
     for (const ReplayEntry& entry : session.replay(progress)) {
@@ -94,6 +108,27 @@ void check_replay(Session& session, Audit& audit, const Progress& progress) {
     }
     audit.verified.push_back(counted(same, "edit") + " of the current state " +
                              (same == 1 ? "gives its" : "give their") + " stored result again");
+}
+
+/// Of whom only the name is known.
+void add_unknown_people(Audit& audit) {
+    const std::size_t unsigned_files = audit.signatures[SignatureState::None],
+                      unverified = audit.signatures[SignatureState::Unverified],
+                      invalid = audit.signatures[SignatureState::Invalid],
+                      verified = audit.signatures[SignatureState::Verified];
+    if (unverified + invalid + verified == 0) {
+        audit.unverified.emplace_back(
+            "who authors and reviewers are: names are as they were given, and nothing is signed");
+        return;
+    }
+    audit.unverified.emplace_back("who authors are: names are as they were given");
+    if (unsigned_files > 0)
+        audit.unverified.push_back("who gave " + counted(unsigned_files, "file") +
+                                   " of verdicts that " + (unsigned_files == 1 ? "is" : "are") +
+                                   " not signed");
+    if (unverified > 0)
+        audit.unverified.push_back("who signed " + counted(unverified, "file") +
+                                   " of verdicts: --signers verifies the signatures");
 }
 
 /// What a record of this kind cannot show.
@@ -113,8 +148,7 @@ void add_limits(const AuditOptions& options, Audit& audit) {
         audit.unverified.emplace_back(
             "that the record was not rewritten from some entry on: --against compares it with "
             "reviewers' files");
-    audit.unverified.emplace_back(
-        "who authors and reviewers are: names are as they were given, and nothing is signed");
+    add_unknown_people(audit);
 }
 
 void add_dropped(const Session& session, Audit& audit) {
@@ -131,8 +165,12 @@ void read_project(const AuditOptions& options, Audit& audit, const Progress& pro
     try {
         Session session = Session::open(
             options.project, {.find = options.find, .worker = options.worker, .only_reads = true});
-        check_witnesses(witnesses({}, session.project().verdicts(), audit.record), audit);
-        audit.statement = statement_of(session, options.find);
+        const std::vector<EnteredVerdicts> entered =
+            entered_verdicts(session.project(), options.signers, progress);
+        check_witnesses(witnesses({}, entered, audit.record), audit);
+        check_signatures(entered, audit);
+        audit.statement = statement_of(
+            session, review_of(session.project(), session.log(), entered), options.find);
         add_dropped(session, audit);
         if (options.replay) check_replay(session, audit, progress);
     } catch (const InvalidInput& error) {

@@ -38,8 +38,11 @@ std::string verdict_words(const Json& facts) {
     for (const auto& [verdict, count] : counts)
         if (verdict != "none")
             text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + verdict;
-    const std::string role = text_at(facts, "role");
-    return (role.empty() ? "" : role + ": ") + (text.empty() ? "no verdict on an edit" : text);
+    const std::string role = text_at(facts, "role"), signer = text_at(facts, "signer");
+    if (text.empty()) text = "no verdict on an edit";
+    if (facts.contains("signature"))
+        text += signer.empty() ? ", signed" : ", signed by " + signer + " when it was entered";
+    return (role.empty() ? "" : role + ": ") + text;
 }
 
 std::size_t size_of(const Json& facts, const char* key) {

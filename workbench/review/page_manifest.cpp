@@ -19,6 +19,7 @@
 #include "workbench/review/known_operation.h"
 #include "workbench/review/page_queue.h"
 #include "workbench/review/review.h"
+#include "workbench/review/review_json.h"
 
 namespace vesselbench {
 
@@ -117,18 +118,6 @@ Json warnings_json(const ResultRecord& result) {
         if (warning.place) row["place"] = point_json(*warning.place);
         rows.push_back(std::move(row));
     }
-    return rows;
-}
-
-Json verdicts_json(const std::vector<GivenVerdict>& verdicts) {
-    Json rows = Json::array();
-    for (const GivenVerdict& given : verdicts)
-        rows.push_back({{"reviewer", given.reviewer},
-                        {"time", given.time},
-                        {"verdict", to_string(given.verdict)},
-                        {"comment", given.comment},
-                        {"revision", given.revision},
-                        {"outdated", given.outdated}});
     return rows;
 }
 

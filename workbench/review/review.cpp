@@ -7,27 +7,15 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/kernel/bare_name.h"
 #include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/printable.h"
 #include "geometry/kernel/wording.h"
-#include "workbench/case/json_text.h"
-#include "workbench/case/version.h"
 #include "workbench/project/content_hash.h"
-#include "workbench/project/project.h"
-#include "workbench/project/record_check.h"
 #include "workbench/project/stored_text.h"
-#include "workbench/project/utc_time.h"
 
 namespace vesselbench {
 
 namespace {
-
-std::string sha256(const std::string& text) {
-    ContentHash hash;
-    hash.add(std::as_bytes(std::span(text)));
-    return hash.hex();
-}
 
 bool decides(Verdict verdict) {
     return verdict == Verdict::Accept || verdict == Verdict::Reject;
@@ -68,16 +56,9 @@ bool saw_all(const VerdictFile& file, const std::vector<ReviewedEdit>& edits) {
                                [&](const ReviewedEdit& edit) { return seen.contains(edit.hash); });
 }
 
-std::vector<VerdictFile> stored_verdicts(const ProjectFile& project) {
-    std::vector<VerdictFile> files;
-    for (const std::string& text : project.verdicts())
-        files.push_back(verdicts_from_text(text, "the stored verdicts"));
-    return files;
-}
-
-void add_verdicts(const std::vector<VerdictFile>& files, ReviewedEdit& edit) {
+void add_verdicts(const std::vector<EnteredVerdicts>& files, ReviewedEdit& edit) {
     ByReviewer newest;
-    for (const VerdictFile& file : files)
+    for (const auto& [file, signature] : files)
         for (const EditVerdict& verdict : file.edits)
             if (verdict.edit.id == edit.edit.id && verdict.verdict != Verdict::None)
                 keep_newest(newest, {.reviewer = file.reviewer,
@@ -86,14 +67,15 @@ void add_verdicts(const std::vector<VerdictFile>& files, ReviewedEdit& edit) {
                                      .verdict = verdict.verdict,
                                      .comment = verdict.comment,
                                      .revision = verdict.edit.revision,
-                                     .outdated = verdict.hash != edit.hash});
+                                     .outdated = verdict.hash != edit.hash,
+                                     .signature = signature});
     edit.verdicts = list_of(newest);
     edit.status = status_of(edit.verdicts);
 }
 
-void add_pins(const std::vector<VerdictFile>& files, ReviewedEdit& edit) {
+void add_pins(const std::vector<EnteredVerdicts>& files, ReviewedEdit& edit) {
     std::map<std::string, const EditVerdict*> newest;
-    for (const VerdictFile& file : files)
+    for (const auto& [file, signature] : files)
         for (const EditVerdict& verdict : file.edits) {
             if (verdict.edit.id != edit.edit.id) continue;
             const EditVerdict*& found = newest[file.reviewer];
@@ -103,31 +85,6 @@ void add_pins(const std::vector<VerdictFile>& files, ReviewedEdit& edit) {
         for (const Pin& pin : verdict->pins)
             edit.pins.push_back(
                 {.reviewer = reviewer, .pin = pin, .outdated = verdict->hash != edit.hash});
-}
-
-Review review_of(const ProjectFile& project, const std::vector<LogEntry>& log) {
-    const std::vector<VerdictFile> files = stored_verdicts(project);
-    Review review{.files = files.size()};
-    for (const LogEntry& entry : log) {
-        ReviewedEdit& edit =
-            review.edits.emplace_back(ReviewedEdit{.edit = entry.edit.edit,
-                                                   .place = entry.edit.place,
-                                                   .operation = entry.edit.operation,
-                                                   .hash = edit_hash(project, entry)});
-        add_verdicts(files, edit);
-        add_pins(files, edit);
-    }
-    ByReviewer overall;
-    for (const VerdictFile& file : files)
-        if (file.overall != Verdict::None)
-            keep_newest(overall, {.reviewer = file.reviewer,
-                                  .role = file.role,
-                                  .time = file.written,
-                                  .verdict = file.overall,
-                                  .comment = file.overall_comment,
-                                  .outdated = !saw_all(file, review.edits)});
-    review.overall = list_of(overall);
-    return review;
 }
 
 std::set<std::string> accepting(const Review& review) {
@@ -142,72 +99,30 @@ std::string edit_words(const ReviewedEdit& edit) {
     return std::to_string(edit.edit.id) + " " + printable(edit.operation);
 }
 
+/// Who accepts an edit: by their keys where those are known, else by name.
+std::set<std::string> accepting(const ReviewedEdit& edit) {
+    std::set<std::string> who;
+    for (const auto& given : edit.verdicts)
+        if (!given.outdated && given.verdict == Verdict::Accept)
+            who.insert(given.signature.signer.empty() ? given.reviewer : given.signature.signer);
+    return who;
+}
+
 /// "rejected by A. Kern", "accepted by 1 of 2"
 std::string lack_of(const ReviewedEdit& edit, std::size_t reviewers) {
     if (edit.status != ReviewStatus::Rejected && edit.status != ReviewStatus::Accepted)
         return to_string(edit.status);
+    if (edit.status == ReviewStatus::Accepted)
+        return "accepted by " + std::to_string(accepting(edit).size()) + " of " +
+               std::to_string(reviewers);
     std::vector<std::string> names;
     for (const GivenVerdict& given : edit.verdicts)
         if (!given.outdated && decides(given.verdict)) names.push_back(printable(given.reviewer));
-    if (edit.status == ReviewStatus::Rejected) return "rejected by " + enumerated(names);
-    return "accepted by " + std::to_string(names.size()) + " of " + std::to_string(reviewers);
+    return "rejected by " + enumerated(names);
 }
 
 bool is_accepted(const ReviewedEdit& edit, std::size_t reviewers) {
-    const auto accepts = std::ranges::count_if(edit.verdicts, [](const GivenVerdict& given) {
-        return !given.outdated && given.verdict == Verdict::Accept;
-    });
-    return edit.status == ReviewStatus::Accepted && static_cast<std::size_t>(accepts) >= reviewers;
-}
-
-/// \throw InvalidInput unless the verdicts are of this project's record
-void check_origin(const VerdictFile& file, const std::string& name, const Session& session) {
-    const ProjectFile& project = session.project();
-    if (file.project != project.id())
-        throw InvalidInput(name + ".project.id is another project's, " +
-                           shortened(printable(file.project_name)) + ": import it there");
-    const History& history = *session.snapshot()->history;
-    for (std::size_t i = 0; i < file.edits.size(); ++i)
-        if (!history.edits().contains(file.edits[i].edit))
-            throw InvalidInput(
-                name + ".edits[" + std::to_string(i) + "].edit: this project has no revision " +
-                std::to_string(file.edits[i].edit.revision) + " of edit " +
-                std::to_string(file.edits[i].edit.id) + "; the verdicts are of another copy of it");
-    if (!project.has_entry(file.chain_head))
-        throw InvalidInput(name +
-                           ".chain_head is no entry of this project's record: the verdicts are of "
-                           "another copy of it, or its record was rewritten ('audit --against' "
-                           "says more)");
-}
-
-std::string facts_of(const VerdictFile& file) {
-    nlohmann::ordered_json edits = nlohmann::ordered_json::object();
-    for (const EditVerdict& verdict : file.edits)
-        edits[std::to_string(verdict.edit.id) + "." + std::to_string(verdict.edit.revision)] =
-            to_string(verdict.verdict);
-    return text_from_json({{"reviewer", file.reviewer},
-                           {"role", file.role},
-                           {"written", file.written},
-                           {"chain_head", file.chain_head},
-                           {"overall", to_string(file.overall)},
-                           {"edits", edits}});
-}
-
-/// \param name of the verdicts in error texts
-ImportedVerdicts enter(Session& session, VerdictFile verdicts, const std::string& name) {
-    ImportedVerdicts done{.verdicts = std::move(verdicts)};
-    check_origin(done.verdicts, name, session);
-    const std::string text = text_of(done.verdicts);
-    done.known = !session.add_verdicts(
-        text, sha256(text),
-        {.kind = "verdicts", .subject = done.verdicts.reviewer, .facts = facts_of(done.verdicts)});
-    std::set<std::string> now;
-    for (const LogEntry& entry : session.log()) now.insert(edit_hash(session.project(), entry));
-    done.outdated = static_cast<std::size_t>(
-        std::ranges::count_if(done.verdicts.edits, [&](const EditVerdict& verdict) {
-            return verdict.verdict != Verdict::None && !now.contains(verdict.hash);
-        }));
-    return done;
+    return edit.status == ReviewStatus::Accepted && accepting(edit).size() >= reviewers;
 }
 
 }  // namespace
@@ -230,7 +145,7 @@ std::string to_string(ReviewStatus status) {
 
 std::string edit_hash(const ProjectFile& project, const LogEntry& entry) {
     const EditRecord& edit = entry.edit;
-    return sha256(
+    return hash_of_text(
         nlohmann::json({{"edit", edit.edit.id},
                         {"revision", edit.edit.revision},
                         {"step", to_string(edit.place.step)},
@@ -243,11 +158,37 @@ std::string edit_hash(const ProjectFile& project, const LogEntry& entry) {
 }
 
 Review review_of(const Session& session) {
-    return review_of(session.project(), session.log());
+    return review_of(session.project(), session.log(), entered_verdicts(session.project()));
 }
 
 Review review_of(const Session& session, const std::string& variant) {
-    return review_of(session.project(), session.log(variant));
+    return review_of(session.project(), session.log(variant), entered_verdicts(session.project()));
+}
+
+Review review_of(const ProjectFile& project, const std::vector<LogEntry>& log,
+                 const std::vector<EnteredVerdicts>& files) {
+    Review review{.files = files.size()};
+    for (const LogEntry& entry : log) {
+        ReviewedEdit& edit =
+            review.edits.emplace_back(ReviewedEdit{.edit = entry.edit.edit,
+                                                   .place = entry.edit.place,
+                                                   .operation = entry.edit.operation,
+                                                   .hash = edit_hash(project, entry)});
+        add_verdicts(files, edit);
+        add_pins(files, edit);
+    }
+    ByReviewer overall;
+    for (const auto& [file, signature] : files)
+        if (file.overall != Verdict::None)
+            keep_newest(overall, {.reviewer = file.reviewer,
+                                  .role = file.role,
+                                  .time = file.written,
+                                  .verdict = file.overall,
+                                  .comment = file.overall_comment,
+                                  .outdated = !saw_all(file, review.edits),
+                                  .signature = signature});
+    review.overall = list_of(overall);
+    return review;
 }
 
 ReviewStatus status_of(const Review& review) {
@@ -293,35 +234,6 @@ void require_accepted(const Review& review, std::size_t reviewers) {
                             .figures = {{"reviewers", static_cast<double>(reviewers)},
                                         {"missing", static_cast<double>(missing.size())}},
                             .words = {{"edits", joined(missing)}}});
-}
-
-std::string imported_words(const ImportedVerdicts& imported) {
-    const std::string by = printable(imported.verdicts.reviewer);
-    if (imported.known) return "these verdicts of " + by + " are entered already";
-    std::string words = counted(imported.verdicts.edits.size(), "verdict") + " of " + by;
-    if (imported.outdated > 0)
-        words += ", " + std::to_string(imported.outdated) + " of them on what has changed since";
-    return words;
-}
-
-ImportedVerdicts import_verdicts(Session& session, const std::filesystem::path& file) {
-    return enter(session, verdicts_from_file(file), bare_name(file));
-}
-
-ImportedVerdicts enter_verdict(Session& session, const Reviewer& reviewer, EditVerdict verdict) {
-    const ProjectFile& project = session.project();
-    const std::string now = utc_now();
-    verdict.time = now;
-    const VerdictFile file{.program = version(),
-                           .project = project.id(),
-                           .project_name = project.name(),
-                           .chain_head = project.record_head(),
-                           .reviewer = reviewer.name,
-                           .role = reviewer.role,
-                           .written = now,
-                           .edits = {std::move(verdict)}};
-    const std::string name = "the verdict";
-    return enter(session, verdicts_from_text(text_of(file), name), name);
 }
 
 }  // namespace vesselbench

@@ -2,11 +2,10 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <vector>
 
-#include "workbench/review/verdicts.h"
+#include "workbench/review/entered_verdicts.h"
 #include "workbench/session/session.h"
 
 namespace vesselbench {
@@ -22,6 +21,7 @@ struct GivenVerdict {
     std::string comment;
     int revision = 1;       ///< that was reviewed
     bool outdated = false;  ///< the edit, or its result, is another one now
+    Signature signature;    ///< of the file that it came with
 };
 
 enum class ReviewStatus : std::uint8_t {
@@ -65,6 +65,11 @@ struct Review {
 /// The part of a review that a variant's model consists of.
 [[nodiscard]] Review review_of(const Session& session, const std::string& variant);
 
+/// The review of a log's edits by what was entered.
+/// \param files that were entered, oldest first
+[[nodiscard]] Review review_of(const ProjectFile& project, const std::vector<LogEntry>& log,
+                               const std::vector<EnteredVerdicts>& files);
+
 /// Of all its edits and of the verdicts on the whole: rejected before disputed, outdated, open,
 /// accepted.
 [[nodiscard]] ReviewStatus status_of(const Review& review);
@@ -72,37 +77,12 @@ struct Review {
 /// One line: "accepted by A. Kern, B. Roth"; "open: 2 of 5 edits are accepted".
 [[nodiscard]] std::string review_words(const Review& review);
 
-/// What is missing until `reviewers` have accepted every edit and nobody has rejected one, or the
-/// whole: "2 smooth (open)". Empty: nothing.
+/// What is missing until `reviewers`, of whom one key signs for one only, have accepted every edit
+/// and nobody has rejected one, or the whole: "2 smooth (open)". Empty: nothing.
 [[nodiscard]] std::vector<std::string> missing_acceptance(const Review& review,
                                                           std::size_t reviewers);
 
 /// \throw DiagnosedFailure that names what missing_acceptance() finds
 void require_accepted(const Review& review, std::size_t reviewers);
-
-/// What became of a file of verdicts.
-struct ImportedVerdicts {
-    VerdictFile verdicts;
-    bool known = false;        ///< the same verdicts were entered before
-    std::size_t outdated = 0;  ///< verdicts on what is another edit or result now
-};
-
-/// "3 verdicts of A. Kern, 1 of them on what has changed since"
-[[nodiscard]] std::string imported_words(const ImportedVerdicts& imported);
-
-/// Enters a reviewer's verdicts into the project, once.
-/// \throw InvalidInput that names the file and the field, also if they are another project's;
-/// IoError
-ImportedVerdicts import_verdicts(Session& session, const std::filesystem::path& file);
-
-/// Who reviews.
-struct Reviewer {
-    std::string name, role;
-};
-
-/// Enters what somebody who reviews in the program says of an edit, with the time of the call.
-/// \param verdict its hash is that of the edit the reviewer saw
-/// \throw as import_verdicts(): a rejection without a reason, a reviewer without a name
-ImportedVerdicts enter_verdict(Session& session, const Reviewer& reviewer, EditVerdict verdict);
 
 }  // namespace vesselbench

@@ -1,5 +1,7 @@
 #include "workbench/review/review_page.h"
 
+#include <utility>
+
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/diagnosed_error.h"
@@ -48,8 +50,8 @@ std::string elements_of(const std::string& json, const std::map<std::string, std
 
 }  // namespace
 
-std::string review_page(Session& session, const std::string& variant, const OperationLookup& find,
-                        PageImages images, const Progress& progress) {
+ReviewPage review_page(Session& session, const std::string& variant, const OperationLookup& find,
+                       PageImages images, const Progress& progress) {
     const std::span<const unsigned char> bytes = review_page_bytes();
     std::string text(bytes.begin(), bytes.end());
     const std::size_t place = text.find(kMarker);
@@ -61,7 +63,7 @@ std::string review_page(Session& session, const std::string& variant, const Oper
     std::map<std::string, std::string> blobs = models.geometry.blobs();
     blobs.insert(models.slices.begin(), models.slices.end());
     text.replace(place, std::string(kMarker).size(), elements_of(text_from_json(manifest), blobs));
-    return text;
+    return {std::move(text), manifest["queue"]};
 }
 
 }  // namespace vesselbench

@@ -7,12 +7,17 @@
 
 namespace vesselbench {
 
-/// One self-contained page in which experts review a variant's edits.
+struct ReviewPage {
+    std::string html;              ///< self-contained
+    nlohmann::ordered_json queue;  ///< queue_json() of what it lists first
+};
+
+/// The page in which experts review a variant's edits.
 /// \param find of operations
 /// \throw DiagnosedFailure if the build has no page
-[[nodiscard]] std::string review_page(Session& session, const std::string& variant,
-                                      const OperationLookup& find,
-                                      PageImages images = PageImages::Contours,
-                                      const Progress& progress = {});
+[[nodiscard]] ReviewPage review_page(Session& session, const std::string& variant,
+                                     const OperationLookup& find,
+                                     PageImages images = PageImages::Contours,
+                                     const Progress& progress = {});
 
 }  // namespace vesselbench

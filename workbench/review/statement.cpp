@@ -55,6 +55,7 @@ Json reviewers_json(const Review& review) {
     struct Counts {
         std::string role;
         std::map<std::string, int> verdicts;
+        std::set<std::string> signatures;
     };
 
     std::map<std::string, Counts> reviewers;
@@ -62,30 +63,21 @@ Json reviewers_json(const Review& review) {
         for (const GivenVerdict& given : edit.verdicts) {
             Counts& counts = reviewers[given.reviewer];
             counts.role = given.role;
+            counts.signatures.insert(signature_words(given.signature));
             ++counts.verdicts[given.outdated ? "outdated" : to_string(given.verdict)];
         }
     Json list = Json::array();
     for (const auto& [name, counts] : reviewers)
-        list.push_back({{"name", name}, {"role", counts.role}, {"verdicts", counts.verdicts}});
-    return list;
-}
-
-Json verdict_json(const GivenVerdict& given) {
-    return {{"reviewer", given.reviewer}, {"role", given.role},
-            {"time", given.time},         {"verdict", to_string(given.verdict)},
-            {"comment", given.comment},   {"revision", given.revision},
-            {"outdated", given.outdated}};
-}
-
-Json verdicts_json(const std::vector<GivenVerdict>& verdicts) {
-    Json list = Json::array();
-    for (const GivenVerdict& given : verdicts) list.push_back(verdict_json(given));
+        list.push_back({{"name", name},
+                        {"role", counts.role},
+                        {"verdicts", counts.verdicts},
+                        {"signatures", counts.signatures}});
     return list;
 }
 
 }  // namespace
 
-Json statement_of(const Session& session, const OperationLookup& find) {
+Json statement_of(const Session& session, const Review& review, const OperationLookup& find) {
     std::set<std::string> versions, operators;
     Json sources = Json::array(), segmentation = Json::array(), edits = Json::array();
     for (const LogEntry& entry : session.log()) {
@@ -97,29 +89,10 @@ Json statement_of(const Session& session, const OperationLookup& find) {
         if (operation != nullptr && operation->recipe.makes_source)
             segmentation.push_back(edits.back());
     }
-    const Review review = review_of(session);
     return {{"program_versions", versions},  {"sources", sources},
             {"segmentation", segmentation},  {"edits", edits},
             {"operators", operators},        {"reviewers", reviewers_json(review)},
             {"review", review_words(review)}};
-}
-
-Json review_json(const Review& review) {
-    Json edits = Json::array();
-    for (const ReviewedEdit& edit : review.edits)
-        edits.push_back({{"edit", edit.edit.id},
-                         {"revision", edit.edit.revision},
-                         {"step", to_string(edit.place.step)},
-                         {"variant", edit.place.variant},
-                         {"operation", edit.operation},
-                         {"hash", edit.hash},
-                         {"status", to_string(edit.status)},
-                         {"verdicts", verdicts_json(edit.verdicts)}});
-    return {{"status", review.files == 0 ? "not reviewed" : to_string(status_of(review))},
-            {"summary", review_words(review)},
-            {"files", review.files},
-            {"edits", edits},
-            {"overall", verdicts_json(review.overall)}};
 }
 
 }  // namespace vesselbench

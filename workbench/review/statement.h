@@ -9,11 +9,9 @@ namespace vesselbench {
 /// What a report on a patient's model states, of the current state, as JSON: program versions,
 /// sources with their resolution, segmentation, edits with their figures (accuracy), operators and
 /// reviewers. Contains no folders.
+/// \param review of the current state
 /// \param find of operations; those it does not know are listed without arguments
-[[nodiscard]] nlohmann::ordered_json statement_of(const Session& session,
+[[nodiscard]] nlohmann::ordered_json statement_of(const Session& session, const Review& review,
                                                   const OperationLookup& find);
-
-/// A review as JSON: every edit of the current state with its verdicts.
-[[nodiscard]] nlohmann::ordered_json review_json(const Review& review);
 
 }  // namespace vesselbench

@@ -228,13 +228,17 @@ VerdictFile verdicts_from_text(std::string_view text, const std::string& name) {
 }
 
 VerdictFile verdicts_from_file(const std::filesystem::path& file) {
+    return verdicts_from_text(verdict_text_in(file), bare_name(file));
+}
+
+std::string verdict_text_in(const std::filesystem::path& file) {
     std::error_code error;
     const std::uintmax_t size = std::filesystem::file_size(file, error);
     if (!error && size > kLargestVerdictFile)
         throw InvalidInput(bare_name(file) + " has " + std::to_string(size) +
                            " bytes; verdicts of at most " + std::to_string(kLargestVerdictFile) +
                            " are read");
-    return verdicts_from_text(file_content(file), bare_name(file));
+    return file_content(file);
 }
 
 std::string text_of(const VerdictFile& verdicts) {

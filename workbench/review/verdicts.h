@@ -63,6 +63,10 @@ constexpr std::size_t kLargestVerdictFile = std::size_t{16} << 20;
 /// The same for a file. \throw IoError if it cannot be read
 [[nodiscard]] VerdictFile verdicts_from_file(const std::filesystem::path& file);
 
+/// The bytes of a file of verdicts, unread.
+/// \throw InvalidInput if it is larger than kLargestVerdictFile; IoError if it cannot be read
+[[nodiscard]] std::string verdict_text_in(const std::filesystem::path& file);
+
 /// The verdicts as JSON with sorted keys and without blanks: the same verdicts have the same text.
 [[nodiscard]] std::string text_of(const VerdictFile& verdicts);
 

@@ -48,8 +48,9 @@ public:
 
     void record(const OutsideEntry& entry) { project_.record(entry); }
 
-    bool add_verdicts(const std::string& text, const std::string& hash, const OutsideEntry& entry) {
-        return project_.add_verdicts(text, hash, entry);
+    bool add_verdicts(const StoredVerdicts& verdicts, const std::string& hash,
+                      const OutsideEntry& entry) {
+        return project_.add_verdicts(verdicts, hash, entry);
     }
 
     /// \throw IoError as ProjectFile::fold_log

@@ -350,10 +350,10 @@ void Session::record(const OutsideEntry& entry) {
     parts_->store.record(entry);
 }
 
-bool Session::add_verdicts(const std::string& text, const std::string& hash,
+bool Session::add_verdicts(const StoredVerdicts& verdicts, const std::string& hash,
                            const OutsideEntry& entry) {
     parts_->store.check_writable();
-    return parts_->store.add_verdicts(text, hash, entry);
+    return parts_->store.add_verdicts(verdicts, hash, entry);
 }
 
 bool Session::is_source(const std::filesystem::path& file) const {

@@ -134,7 +134,8 @@ public:
     /// As ProjectFile::record() and add_verdicts(), by the session's author.
     /// \throw IoError if the session only reads or the project cannot be written
     void record(const OutsideEntry& entry);
-    bool add_verdicts(const std::string& text, const std::string& hash, const OutsideEntry& entry);
+    bool add_verdicts(const StoredVerdicts& verdicts, const std::string& hash,
+                      const OutsideEntry& entry);
 
     /// True for a file with the content of a file that an edit has read: it must not be replaced.
     /// \throw IoError if it cannot be read

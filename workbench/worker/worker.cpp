@@ -15,7 +15,6 @@
 #include <fcntl.h>
 #include <nlohmann/json.hpp>
 #include <poll.h>
-#include <spawn.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -31,6 +30,7 @@
 #include "workbench/case/json_text.h"
 #include "workbench/project/serialization.h"
 #include "workbench/project/stored_text.h"
+#include "workbench/worker/child_process.h"
 #include "workbench/worker/input_files.h"
 #include "workbench/worker/sandbox.h"
 
@@ -44,7 +44,6 @@ using Clock = std::chrono::steady_clock;
 // The worker's ends: request on stdin, outcome and progress on these; stdout and stderr go nowhere.
 constexpr int kOutcome = 3;
 constexpr int kProgress = 4;
-constexpr int kFirstFree = 10;
 constexpr int kPollMilliseconds = 20;
 constexpr auto kProgressInterval = std::chrono::milliseconds(20);
 
@@ -67,50 +66,6 @@ enum class Ending : std::uint8_t {
     Memory,
     Broken
 };
-
-/// A file descriptor that is closed with its owner.
-class Descriptor {
-public:
-    explicit Descriptor(int number) : number_(number) {
-        if (number < 0) throw IoError("cannot start a worker process: too many open files");
-    }
-
-    ~Descriptor() { reset(); }
-
-    Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-
-    Descriptor& operator=(Descriptor&&) = delete;
-
-    [[nodiscard]] int number() const { return number_; }
-
-    void reset() {
-        if (number_ >= 0) close(number_);
-        number_ = -1;
-    }
-
-private:
-    int number_;
-};
-
-/// Away from the low numbers used for the worker's ends.
-Descriptor moved_up(int number) {
-    const Descriptor low(number);
-    return Descriptor(fcntl(number, F_DUPFD_CLOEXEC, kFirstFree));
-}
-
-/// A file in memory shared only by the two processes.
-Descriptor memory_file(const char* name) {
-    return moved_up(memfd_create(name, MFD_CLOEXEC));
-}
-
-void write_all(int descriptor, std::span<const std::byte> bytes) {
-    while (!bytes.empty()) {
-        const auto done = write(descriptor, bytes.data(), bytes.size());
-        if (done < 0 && errno == EINTR) continue;
-        if (done <= 0) throw IoError("cannot pass a scene to a worker process: out of memory");
-        bytes = bytes.subspan(static_cast<std::size_t>(done));
-    }
-}
 
 /// Large scenes take seconds: asks between pieces whether it was cancelled.
 void write_pieces(int descriptor, std::span<const std::byte> bytes, const Progress& progress) {
@@ -195,56 +150,19 @@ Outcome read_outcome(ByteReader& reader, const std::vector<ScenePart>& known,
 /// In the environment of every worker.
 constexpr const char* kWorkerMark = "VESSELBENCH_WORKER";
 
-/// The worker process, killed and reaped with its owner.
-class Child {
-public:
-    Child(const std::vector<std::string>& command, const Descriptor& request,
-          const Descriptor& outcome, const Descriptor& progress) {
-        posix_spawn_file_actions_t actions;
-        posix_spawn_file_actions_init(&actions);
-        posix_spawn_file_actions_adddup2(&actions, request.number(), STDIN_FILENO);
-        // Libraries print what they think of a file, up to asserts: nothing for a user.
-        for (const int shown : {STDOUT_FILENO, STDERR_FILENO})
-            if (!kSanitized)
-                posix_spawn_file_actions_addopen(&actions, shown, "/dev/null", O_WRONLY, 0);
-        if (kSanitized) posix_spawn_file_actions_adddup2(&actions, STDERR_FILENO, STDOUT_FILENO);
-        posix_spawn_file_actions_adddup2(&actions, outcome.number(), kOutcome);
-        posix_spawn_file_actions_adddup2(&actions, progress.number(), kProgress);
-        posix_spawn_file_actions_addclosefrom_np(&actions, kProgress + 1);  // no socket of ours
-        std::vector<char*> words;
-        for (const std::string& word : command) words.push_back(const_cast<char*>(word.c_str()));
-        words.push_back(nullptr);
-        std::string mark = std::string(kWorkerMark) + "=1";
-        std::vector<char*> surroundings = {mark.data()};
-        for (char** entry = environ; *entry != nullptr; ++entry) surroundings.push_back(*entry);
-        surroundings.push_back(nullptr);
-        const int code =
-            posix_spawn(&pid_, words[0], &actions, nullptr, words.data(), surroundings.data());
-        posix_spawn_file_actions_destroy(&actions);
-        if (code != 0) throw IoError("cannot start the worker process " + command[0]);
-    }
-
-    ~Child() {
-        if (pid_ <= 0) return;
-        kill(pid_, SIGKILL);
-        wait();
-    }
-
-    Child(const Child&) = delete;
-    Child& operator=(const Child&) = delete;
-
-    /// Waits for its end. \return its status from waitpid()
-    int wait() {
-        int status = 0;
-        while (waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
-        }
-        pid_ = -1;
-        return status;
-    }
-
-private:
-    pid_t pid_ = -1;
-};
+/// Libraries print what they think of a file, up to asserts: nothing for a user.
+ChildSetup worker_setup(std::vector<std::string> command, const Descriptor& request,
+                        const Descriptor& outcome, const Descriptor& progress) {
+    ChildSetup setup{.command = std::move(command),
+                     .ends = {{request.number(), STDIN_FILENO},
+                              {outcome.number(), kOutcome},
+                              {progress.number(), kProgress}},
+                     .environment = {std::string(kWorkerMark) + "=1"}};
+    if (kSanitized)
+        setup.ends.insert(setup.ends.end(),
+                          {{STDERR_FILENO, STDOUT_FILENO}, {STDERR_FILENO, STDERR_FILENO}});
+    return setup;
+}
 
 /// Passes the worker's progress lines on until it closes its end. \return false after the deadline
 bool follow(int descriptor, const Progress& progress, Clock::time_point deadline) {
@@ -451,11 +369,10 @@ Outcome run_in_worker(const Operation& operation, const Scene& scene,
     write_request(request.number(), operation, scene, arguments, options, progress);
     lseek(request.number(), 0, SEEK_SET);
     std::array<int, 2> ends{};
-    if (pipe2(ends.data(), O_CLOEXEC) != 0)
-        throw IoError("cannot start a worker process: too many open files");
+    if (pipe2(ends.data(), O_CLOEXEC) != 0) ends.fill(-1);
     const Descriptor reading = moved_up(ends[0]);
     Descriptor writing = moved_up(ends[1]);
-    Child child(command, request, answer, writing);
+    Child child(worker_setup(std::move(command), request, answer, writing));
     writing.reset();
 
     if (!follow(reading.number(), progress, Clock::now() + options.time_limit))

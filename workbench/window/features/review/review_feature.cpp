@@ -193,7 +193,8 @@ void ReviewFeature::write_page(const std::filesystem::path& file) {
     core_.document.write_text(
         file, {.what = "Writing the review page", .kind = RequestKind::Output},
         [variant = core_.document.variant()](Session& session, const Progress& progress) {
-            return review_page(session, variant, find_operation, PageImages::Contours, progress);
+            return review_page(session, variant, find_operation, PageImages::Contours, progress)
+                .html;
         });
 }
 

@@ -9,6 +9,7 @@
 
 #include "workbench/review/page_queue.h"
 #include "workbench/review/review.h"
+#include "workbench/review/verdict_import.h"
 #include "workbench/window/core/core.h"
 
 namespace vesselbench {

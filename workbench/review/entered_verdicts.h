@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "workbench/project/project.h"
+#include "workbench/review/signature.h"
+#include "workbench/review/verdicts.h"
+
+namespace vesselbench {
+
+/// A file of verdicts that was entered into a project.
+struct EnteredVerdicts {
+    VerdictFile verdicts;
+    Signature signature;
+};
+
+/// What was entered into a project, in that order.
+/// \param signers as signature_of()
+/// \throw InvalidInput if stored verdicts are damaged; also as signature_of()
+[[nodiscard]] std::vector<EnteredVerdicts> entered_verdicts(
+    const ProjectFile& project, const std::filesystem::path& signers = {},
+    const Progress& progress = {});
+
+/// What counts where signatures are required: acceptances only if their signature verifies, other
+/// verdicts always.
+[[nodiscard]] std::vector<EnteredVerdicts> without_unsigned_acceptances(
+    std::vector<EnteredVerdicts> entered);
+
+}  // namespace vesselbench

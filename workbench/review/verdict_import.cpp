@@ -1,0 +1,142 @@
+#include "workbench/review/verdict_import.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "geometry/kernel/bare_name.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/printable.h"
+#include "geometry/kernel/wording.h"
+#include "workbench/case/json_text.h"
+#include "workbench/case/version.h"
+#include "workbench/project/content_hash.h"
+#include "workbench/project/project.h"
+#include "workbench/project/utc_time.h"
+#include "workbench/review/review.h"
+
+namespace vesselbench {
+
+namespace {
+
+/// \throw InvalidInput unless the verdicts are of this project's record
+void check_origin(const VerdictFile& file, const std::string& name, const Session& session) {
+    const ProjectFile& project = session.project();
+    if (file.project != project.id())
+        throw InvalidInput(name + ".project.id is another project's, " +
+                           shortened(printable(file.project_name)) + ": import it there");
+    const History& history = *session.snapshot()->history;
+    for (std::size_t i = 0; i < file.edits.size(); ++i)
+        if (!history.edits().contains(file.edits[i].edit))
+            throw InvalidInput(
+                name + ".edits[" + std::to_string(i) + "].edit: this project has no revision " +
+                std::to_string(file.edits[i].edit.revision) + " of edit " +
+                std::to_string(file.edits[i].edit.id) + "; the verdicts are of another copy of it");
+    if (!project.has_entry(file.chain_head))
+        throw InvalidInput(name +
+                           ".chain_head is no entry of this project's record: the verdicts are of "
+                           "another copy of it, or its record was rewritten ('audit --against' "
+                           "says more)");
+}
+
+/// \param signature empty: none
+std::string facts_of(const VerdictFile& file, const std::string& signature,
+                     const Signature& known) {
+    nlohmann::ordered_json edits = nlohmann::ordered_json::object();
+    for (const EditVerdict& verdict : file.edits)
+        edits[std::to_string(verdict.edit.id) + "." + std::to_string(verdict.edit.revision)] =
+            to_string(verdict.verdict);
+    nlohmann::ordered_json facts = {{"reviewer", file.reviewer},
+                                    {"role", file.role},
+                                    {"written", file.written},
+                                    {"chain_head", file.chain_head},
+                                    {"overall", to_string(file.overall)},
+                                    {"edits", edits}};
+    if (!signature.empty()) facts["signature"] = hash_of_text(signature);
+    if (!known.signer.empty()) facts["signer"] = known.signer;
+    return text_from_json(facts);
+}
+
+/// True if a project has what a file says, signed or not.
+bool has_verdicts(const ProjectFile& project, const std::string& text) {
+    return std::ranges::any_of(entered_verdicts(project), [&](const EnteredVerdicts& entered) {
+        return text_of(entered.verdicts) == text;
+    });
+}
+
+/// \throw InvalidInput if a required signature is missing or does not verify
+void check_signature(const Signature& signature, bool required, const std::string& name) {
+    if (signature.state == SignatureState::Invalid)
+        throw InvalidInput(name + ": " + signature_words(signature) + "; nothing was entered");
+    if (required && signature.state == SignatureState::None)
+        throw InvalidInput(name + " is not signed: there is no " + name +
+                           ".sig beside it; without --signers it is entered as unsigned");
+}
+
+std::size_t outdated_in(const VerdictFile& file, const Session& session) {
+    std::set<std::string> current;
+    for (const LogEntry& entry : session.log()) current.insert(edit_hash(session.project(), entry));
+    return static_cast<std::size_t>(
+        std::ranges::count_if(file.edits, [&](const EditVerdict& verdict) {
+            return verdict.verdict != Verdict::None && !current.contains(verdict.hash);
+        }));
+}
+
+/// \param given with the bytes that were signed, if they were
+/// \param name of the verdicts in error texts
+ImportedVerdicts enter(Session& session, StoredVerdicts given, const Signature& signature,
+                       const std::string& name) {
+    ImportedVerdicts done{.verdicts = verdicts_from_text(given.text, name), .signature = signature};
+    check_origin(done.verdicts, name, session);
+    const std::string facts = facts_of(done.verdicts, given.signature, signature);
+    if (given.signature.empty()) given.text = text_of(done.verdicts);
+    done.known = given.signature.empty() && has_verdicts(session.project(), given.text);
+    if (!done.known)
+        done.known = !session.add_verdicts(
+            given, hash_of_text(given.text + given.signature),
+            {.kind = "verdicts", .subject = done.verdicts.reviewer, .facts = facts});
+    done.outdated = outdated_in(done.verdicts, session);
+    return done;
+}
+
+}  // namespace
+
+std::string imported_words(const ImportedVerdicts& imported) {
+    const std::string by = printable(imported.verdicts.reviewer);
+    if (imported.known) return "these verdicts of " + by + " are entered already";
+    std::string words = counted(imported.verdicts.edits.size(), "verdict") + " of " + by;
+    if (imported.signature.state != SignatureState::None)
+        words += ", " + printable(signature_words(imported.signature));
+    if (imported.outdated > 0)
+        words += ", " + std::to_string(imported.outdated) + " of them on what has changed since";
+    return words;
+}
+
+ImportedVerdicts import_verdicts(Session& session, const std::filesystem::path& file,
+                                 const std::filesystem::path& signers, const Progress& progress) {
+    const std::string name = bare_name(file);
+    StoredVerdicts given{verdict_text_in(file), signature_beside(file)};
+    const Signature signature = signature_of(given, signers, progress);
+    check_signature(signature, !signers.empty(), name);
+    return enter(session, std::move(given), signature, name);
+}
+
+ImportedVerdicts enter_verdict(Session& session, const Reviewer& reviewer, EditVerdict verdict) {
+    const ProjectFile& project = session.project();
+    const std::string now = utc_now();
+    verdict.time = now;
+    const VerdictFile file{.program = version(),
+                           .project = project.id(),
+                           .project_name = project.name(),
+                           .chain_head = project.record_head(),
+                           .reviewer = reviewer.name,
+                           .role = reviewer.role,
+                           .written = now,
+                           .edits = {std::move(verdict)}};
+    const std::string name = "the verdict";
+    return enter(session, {text_of(file), ""}, {}, name);
+}
+
+}  // namespace vesselbench
