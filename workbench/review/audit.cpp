@@ -132,7 +132,7 @@ void read_project(const AuditOptions& options, Audit& audit, const Progress& pro
         Session session = Session::open(
             options.project, {.find = options.find, .worker = options.worker, .only_reads = true});
         check_witnesses(witnesses({}, session.project().verdicts(), audit.record), audit);
-        audit.statement = statement_of(session, options.find);
+        audit.statement = statement_of(session, audit.record.entries, options.find);
         add_dropped(session, audit);
         if (options.replay) check_replay(session, audit, progress);
     } catch (const InvalidInput& error) {

@@ -12,6 +12,7 @@
 #include "workbench/project/project.h"
 #include "workbench/report/log_json.h"
 #include "workbench/review/known_operation.h"
+#include "workbench/review/reporting_items.h"
 
 namespace vesselbench {
 
@@ -85,7 +86,8 @@ Json verdicts_json(const std::vector<GivenVerdict>& verdicts) {
 
 }  // namespace
 
-Json statement_of(const Session& session, const OperationLookup& find) {
+Json statement_of(const Session& session, std::span<const ChainEntry> entries,
+                  const OperationLookup& find) {
     std::set<std::string> versions, operators;
     Json sources = Json::array(), segmentation = Json::array(), edits = Json::array();
     for (const LogEntry& entry : session.log()) {
@@ -94,14 +96,22 @@ Json statement_of(const Session& session, const OperationLookup& find) {
         if (entry.result) versions.insert(entry.result->program_version);
         add_sources(session, entry, sources);
         edits.push_back(edit_json(entry, operation));
-        if (operation != nullptr && operation->recipe.makes_source)
-            segmentation.push_back(edits.back());
+        if (operation == nullptr || !operation->recipe.makes_source) continue;
+        segmentation.push_back(edits.back());
+        segmentation.back()["loaded"] = operation->recipe.loads.has_value();
     }
     const Review review = review_of(session);
-    return {{"program_versions", versions},  {"sources", sources},
-            {"segmentation", segmentation},  {"edits", edits},
-            {"operators", operators},        {"reviewers", reviewers_json(review)},
-            {"review", review_words(review)}};
+    Json statement = {{"program_versions", versions},
+                      {"variants", session.snapshot()->history->variants()},
+                      {"sources", sources},
+                      {"segmentation", segmentation},
+                      {"edits", edits},
+                      {"operators", operators},
+                      {"reviewers", reviewers_json(review)},
+                      {"review", review_words(review)},
+                      {"exports", exports_json(entries)}};
+    statement["items"] = reporting_items(statement);
+    return statement;
 }
 
 Json review_json(const Review& review) {
