@@ -19,6 +19,7 @@
 #include "workbench/prepare/end_settings.h"
 #include "workbench/prepare/prepared_purposes.h"
 #include "workbench/report/log_json.h"
+#include "workbench/review/provenance.h"
 #include "workbench/review/review.h"
 #include "workbench/session/export_record.h"
 #include "workbench/session/stored_texts.h"
@@ -143,7 +144,9 @@ void export_project(const ExportArguments& arguments, const Progress& progress) 
                    printable(entry.edit.operation) +
                    " no longer applies and is not in the model: " + entry.reason);
     PendingFiles files;
-    export_scene(files, arguments.file, scene, flow.parameters(), progress.part(0.7, 1.0));
+    export_scene(files, arguments.file, scene,
+                 {.flow = flow.parameters(), .provenance = provenance(session, variant)},
+                 progress.part(0.7, 1.0));
     progress.check_cancelled();
     files.commit();
     record_export(session, arguments.file, variant);

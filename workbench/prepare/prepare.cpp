@@ -23,6 +23,7 @@
 #include "workbench/prepare/result_folder.h"
 #include "workbench/prepare/resume.h"
 #include "workbench/prepare/resumed_recipe.h"
+#include "workbench/review/provenance.h"
 #include "workbench/session/export_record.h"
 #include "workbench/session/stored_texts.h"
 
@@ -199,8 +200,10 @@ void tell_remaining(const std::vector<std::string>& names, const Teller& tell) {
                    .words = {{"files", enumerated(names)}}});
 }
 
-void write_products(PendingFiles& files, const PrepareOptions& options, PreparedCase& prepared,
-                    const Progress& progress) {
+void write_products(PendingFiles& files, const Session& session, const PrepareOptions& options,
+                    PreparedCase& prepared, const Progress& progress) {
+    const ExportOptions how{.flow = prepared.flow,
+                            .provenance = provenance(session, options.purpose)};
     const std::vector<std::string> names = product_names(options.purpose);
     const auto done = [&](std::size_t count) {
         return static_cast<double>(count) / static_cast<double>(names.size());
@@ -208,7 +211,7 @@ void write_products(PendingFiles& files, const PrepareOptions& options, Prepared
     for (std::size_t i = 0; i < names.size(); ++i) {
         const Progress one = progress.part(done(i), done(i + 1));
         one.report(0.0, "writing the products");
-        export_scene(files, options.out / names[i], prepared.scene, prepared.flow, one);
+        export_scene(files, options.out / names[i], prepared.scene, how, one);
         prepared.products.push_back(names[i]);
     }
 }
@@ -229,7 +232,7 @@ PrepareSummary write_results(Session& session, const PrepareOptions& options, Pr
     keep_irreplaceable(options.out, names, tell);
     prepared.earlier_results = remaining_results(options.out, names, earlier);
     PendingFiles files;
-    write_products(files, options, prepared, progress.part(0.0, 0.3));
+    write_products(files, session, options, prepared, progress.part(0.0, 0.3));
     const PreparedReport report = prepare_report(session, prepared, progress.part(0.3, 1.0));
     files.add_mark(options.out / "report.html",
                    report_html(report.document, report.pictures, report.sections));
