@@ -14,6 +14,7 @@
 #include "workbench/case/purposes.h"
 #include "workbench/export/products.h"
 #include "workbench/operations/table.h"
+#include "workbench/prepare/acceptance_gate.h"
 #include "workbench/prepare/apply_recipe.h"
 #include "workbench/prepare/model_check.h"
 #include "workbench/prepare/prepare_report.h"
@@ -77,12 +78,17 @@ Json recipe_json_from(const PrepareOptions& options, const Input& input) {
 }
 
 /// The recipe preceded by the edit that loads the input, with its files and units filled in.
-Recipe recipe_for(const PrepareOptions& options, const Input& input) {
-    Recipe recipe = input_recipe(input, options.purpose, recipe_json_from(options, input));
+Recipe recipe_for(const PrepareOptions& options, const Input& input, const Json& json) {
+    Recipe recipe = input_recipe(input, options.purpose, json);
     set_arguments(recipe, options.arguments);
     // No entry runs if a later one cannot.
     for (const RecipeEntry& entry : recipe) check_complete(entry.given);
     return recipe;
+}
+
+/// By the recipe; the built-in one asks for none.
+std::size_t reviewers_asked(const PrepareOptions& options, const Input& input, const Json& json) {
+    return json.is_null() ? 0 : reviewers_required(json, recipe_use(input, options.purpose));
 }
 
 /// The folder's project: a new one, for which an earlier one is renamed while no other process can
@@ -275,6 +281,8 @@ PrepareSummary finished(Session& session, const Recipe& rest, const PrepareOptio
     const std::string openings = openings_text(surface_of(prepared.scene));
     if (!openings.empty()) tell("openings: " + openings);
     try {
+        pass_gate(session, options.purpose, prepared.reviewers, options.out, tell,
+                  progress.silent());
         return write_results(session, options, std::move(prepared), tell,
                              progress.part(kEditsShare, 1.0));
     } catch (const InvalidInput& error) {
@@ -296,7 +304,8 @@ PrepareSummary prepare(const PrepareOptions& options, const Teller& tell,
     FlowSettings flow(options.resume ? stored_text(project, StoredText::Flow) : "");
     flow.take(for_recipe.arguments);
     prepared.flow = flow.parameters();
-    Recipe recipe = recipe_for(for_recipe, input);
+    const Json recipe_json = recipe_json_from(options, input);
+    Recipe recipe = recipe_for(for_recipe, input, recipe_json);
     refuse_own_input(options, input);
     const ResultFolder folder(options.out);
     Session session = opened_project(options, tell);
@@ -310,6 +319,8 @@ PrepareSummary prepare(const PrepareOptions& options, const Teller& tell,
         }
         keep_name(project, input);
         begin_purpose(project, options.purpose);
+        prepared.reviewers =
+            kept_reviewers(project, options.purpose, reviewers_asked(options, input, recipe_json));
         if (!flow.stored().empty()) store_text(project, StoredText::Flow, flow.stored());
         const Teller noting(
             [&](const std::string& text) {
