@@ -31,13 +31,14 @@ struct Format {
 };
 
 /// A row of a table. A null function: such files are not read, or not written.
-/// \tparam Read type that is read, \tparam Written type that is written
-template <class Read, class Written>
+/// \tparam Read type that is read, \tparam Written type that is written, \tparam More what a writer
+/// is told besides
+template <class Read, class Written, class... More>
 struct FormatRow : Format {
     Read (*read)(const std::string& path) = nullptr;
     /// Hears a cancel within the file.
-    void (*write)(const Written& content, const std::string& path,
-                  const Progress& progress) = nullptr;
+    void (*write)(const Written& content, const std::string& path, const Progress& progress,
+                  More... more) = nullptr;
 };
 
 inline constexpr std::size_t kSniffedBytes = 1024;

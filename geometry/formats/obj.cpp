@@ -1,5 +1,6 @@
 #include "geometry/formats/obj.h"
 
+#include "geometry/formats/comment_line.h"
 #include "geometry/formats/number_text.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/plain_name.h"
@@ -81,9 +82,11 @@ RawSurface read_obj(const std::string& path) {
     return Reader(text, bare_name(path)).read();
 }
 
-void write_obj(const Surface& surface, const std::string& path, const Progress& progress) {
+void write_obj(const Surface& surface, const std::string& path, const Progress& progress,
+               const std::string& provenance) {
     require_plain_names(surface.patches);
     std::string text = "# surface of vesselbench UNITS=mm\n";
+    if (!provenance.empty()) text += "# " + comment_line(provenance) + "\n";
     LoopProgress rows(progress,
                       surface.vertex_count() + surface.patches.size() * surface.triangle_count(),
                       writing_text(path));

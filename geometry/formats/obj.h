@@ -12,7 +12,8 @@ namespace vesselbench {
 /// \throw InvalidInput for a damaged file or an index out of range, IoError if it cannot be read
 [[nodiscard]] RawSurface read_obj(const std::string& path);
 
-/// One group per patch; a comment states the unit.
-void write_obj(const Surface& surface, const std::string& path, const Progress& progress = {});
+/// One group per patch; comments state the unit and the model's provenance.
+void write_obj(const Surface& surface, const std::string& path, const Progress& progress = {},
+               const std::string& provenance = {});
 
 }  // namespace vesselbench

@@ -1,5 +1,6 @@
 #include "geometry/formats/off.h"
 
+#include "geometry/formats/comment_line.h"
 #include "geometry/formats/number_text.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/whole_file.h"
@@ -81,10 +82,12 @@ RawSurface read_off(const std::string& path) {
     return Reader(text, bare_name(path)).read();
 }
 
-void write_off(const Surface& surface, const std::string& path, const Progress& progress) {
-    std::string text = "OFF\n# surface of vesselbench UNITS=mm\n" +
-                       std::to_string(surface.vertex_count()) + " " +
-                       std::to_string(surface.triangle_count()) + " 0\n";
+void write_off(const Surface& surface, const std::string& path, const Progress& progress,
+               const std::string& provenance) {
+    std::string text = "OFF\n# surface of vesselbench UNITS=mm\n";
+    if (!provenance.empty()) text += "# " + comment_line(provenance) + "\n";
+    text += std::to_string(surface.vertex_count()) + " " +
+            std::to_string(surface.triangle_count()) + " 0\n";
     LoopProgress rows(progress, surface.vertex_count() + surface.triangle_count(),
                       writing_text(path));
     for (const Vec3& p : surface.points()) {

@@ -11,7 +11,9 @@ namespace vesselbench {
 /// \throw InvalidInput for a damaged or truncated file, IoError if it cannot be read
 [[nodiscard]] RawSurface read_off(const std::string& path);
 
-/// A comment states the unit; the format cannot store patches and attributes.
-void write_off(const Surface& surface, const std::string& path, const Progress& progress = {});
+/// Comments state the unit and the model's provenance; the format cannot store patches and
+/// attributes.
+void write_off(const Surface& surface, const std::string& path, const Progress& progress = {},
+               const std::string& provenance = {});
 
 }  // namespace vesselbench

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <limits>
 
+#include "geometry/formats/comment_line.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/plain_name.h"
 #include "geometry/kernel/whole_file.h"
@@ -342,11 +343,13 @@ RawSurface read_ply(const std::string& path) {
     return Reader(bytes, bare_name(path)).read();
 }
 
-void write_ply(const Surface& surface, const std::string& path, const Progress& progress) {
+void write_ply(const Surface& surface, const std::string& path, const Progress& progress,
+               const std::string& provenance) {
     require_plain_names(surface.patches);
     for (const auto& [name, values] : surface.attributes) require_plain_name(name, "an attribute");
     std::string bytes = "ply\nformat binary_little_endian 1.0\n";
     bytes += "comment surface of vesselbench UNITS=mm\n";
+    if (!provenance.empty()) bytes += "comment " + comment_line(provenance) + "\n";
     for (std::size_t i = 0; i < surface.patches.size(); ++i)
         bytes += "comment patch " + std::to_string(i + 1) + " " + surface.patches[i].name + "\n";
     bytes += "element vertex " + std::to_string(surface.vertex_count()) + "\n";

@@ -14,7 +14,8 @@ namespace vesselbench {
 [[nodiscard]] RawSurface read_ply(const std::string& path);
 
 /// Binary, double precision, with attributes; patches are stored in the face property CellEntityIds
-/// and in comments, the unit in another comment.
-void write_ply(const Surface& surface, const std::string& path, const Progress& progress = {});
+/// and in comments, the unit and the model's provenance in others.
+void write_ply(const Surface& surface, const std::string& path, const Progress& progress = {},
+               const std::string& provenance = {});
 
 }  // namespace vesselbench

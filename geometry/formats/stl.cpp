@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "geometry/formats/comment_line.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/point_welder.h"
 #include "geometry/kernel/printable.h"
@@ -15,6 +16,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little);
 
+constexpr std::size_t kCountAt = 80;
 constexpr std::size_t kHeader = 84;  // 80 bytes of text, then the number of triangles
 constexpr std::size_t kRecord = 50;  // normal, three corners (floats), two bytes
 
@@ -134,6 +136,13 @@ std::string beginning_of(const std::string& bytes, std::size_t length) {
     return std::string(text.substr(0, text.find_first_of("\r\n")));
 }
 
+/// At most 80 bytes, which is all that the format has room for.
+std::string header_text(const std::string& provenance) {
+    const std::string unit = "vesselbench UNITS=mm";
+    if (provenance.empty()) return unit;
+    return unit + ", " + comment_line(provenance, kCountAt - unit.size() - 2);
+}
+
 bool looks_like_text(const std::string& bytes) {
     return beginning_of(bytes, 5) == "solid" && is_text(bytes);
 }
@@ -165,10 +174,11 @@ RawSurface read_stl(const std::string& path) {
     return raw;
 }
 
-void write_stl(const Surface& surface, const std::string& path, const Progress& progress) {
+void write_stl(const Surface& surface, const std::string& path, const Progress& progress,
+               const std::string& provenance) {
     std::string bytes(kHeader + kRecord * surface.triangle_count(), '\0');
-    const char header[] = "binary STL of vesselbench UNITS=mm";
-    std::memcpy(bytes.data(), header, sizeof header);
+    const std::string header = header_text(provenance);
+    std::memcpy(bytes.data(), header.data(), header.size());
     const auto count = static_cast<std::uint32_t>(surface.triangle_count());
     std::memcpy(bytes.data() + 80, &count, sizeof count);
     char* record = bytes.data() + kHeader;

@@ -11,7 +11,9 @@ namespace vesselbench {
 /// \throw InvalidInput for a damaged or truncated file, IoError if it cannot be read
 [[nodiscard]] RawSurface read_stl(const std::string& path);
 
-/// Writes binary STL (single precision); the header states the unit.
-void write_stl(const Surface& surface, const std::string& path, const Progress& progress = {});
+/// Writes binary STL (single precision); the header states the unit, and as much of the model's
+/// provenance as fits.
+void write_stl(const Surface& surface, const std::string& path, const Progress& progress = {},
+               const std::string& provenance = {});
 
 }  // namespace vesselbench

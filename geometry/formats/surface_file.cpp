@@ -64,7 +64,7 @@ void write_surface(const Surface& surface, const std::string& path, const Progre
                          "' is not a surface format that can be written: use " +
                          enumerated(written_suffixes(surface_formats()), "or"));
     if (surface.empty()) throw InvalidInput("there are no triangles to write");
-    format->write(surface, path, progress);
+    format->write(surface, path, progress, {});
 }
 
 }  // namespace vesselbench

@@ -19,6 +19,7 @@
 #include <vtkXMLPolyDataWriter.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
+#include "geometry/formats/comment_line.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/pending_files.h"
 #include "geometry/kernel/whole_file.h"
@@ -69,6 +70,7 @@ void fill(vtkPointSet* data, const VtkMesh& mesh) {
     data->GetCellData()->SetScalars(regions);
     add_texts(data, "PatchNames", mesh.patch_names);
     add_texts(data, "Units", {"mm"});
+    if (!mesh.provenance.empty()) add_texts(data, "Provenance", {comment_line(mesh.provenance)});
 }
 
 template <class Writer>

@@ -21,6 +21,7 @@ struct VtkMesh {
     std::vector<std::int32_t> regions;  ///< per cell, the array CellEntityIds
     std::vector<std::string> patch_names;  ///< of regions 1, 2..., the field array PatchNames
     std::map<std::string, std::shared_ptr<const std::vector<double>>> attributes;  ///< per point
+    std::string provenance;  ///< of the model, the field array Provenance; empty: none
 };
 
 inline constexpr std::uint8_t kVtkTriangle = 5, kVtkTetrahedron = 10;

@@ -171,8 +171,9 @@ RawSurface read_vtp(const std::string& path) {
     }
 }
 
-void write_vtp(const Surface& surface, const std::string& path, const Progress& progress) {
-    VtkMesh mesh{.points = surface.points()};
+void write_vtp(const Surface& surface, const std::string& path, const Progress& progress,
+               const std::string& provenance) {
+    VtkMesh mesh{.points = surface.points(), .provenance = provenance};
     LoopProgress rows(progress.part(0.0, 0.5), surface.triangle_count(), writing_text(path));
     for (TriangleId t = 0; t < surface.triangle_count(); ++t) {
         rows.step();

@@ -13,8 +13,9 @@ namespace vesselbench {
 /// \throw InvalidInput for a damaged or truncated file, IoError if it cannot be read
 [[nodiscard]] RawSurface read_vtp(const std::string& path);
 
-/// Writes .vtp in double precision (appended raw data) with CellEntityIds, PatchNames, Units and
-/// the attributes.
-void write_vtp(const Surface& surface, const std::string& path, const Progress& progress = {});
+/// Writes .vtp in double precision (appended raw data) with CellEntityIds, PatchNames, Units,
+/// the attributes, and the model's provenance as the field array Provenance.
+void write_vtp(const Surface& surface, const std::string& path, const Progress& progress = {},
+               const std::string& provenance = {});
 
 }  // namespace vesselbench

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/formats/comment_line.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/plain_name.h"
 #include "geometry/kernel/whole_file.h"
@@ -362,7 +363,8 @@ bool is_unused_openfoam_case(const fs::path& folder) {
 }
 
 void write_openfoam_case(const fs::path& folder, const VolumeMesh& mesh,
-                         const CfdParameters& parameters, const Progress& progress) {
+                         const CfdParameters& parameters, const Progress& progress,
+                         const std::string& provenance) {
     require_plain_names(mesh.patches);
     progress.report(0.0, writing_text(folder));
     FlowSummary flow = flow_summary(boundary_surface(mesh), parameters);
@@ -386,9 +388,11 @@ void write_openfoam_case(const fs::path& folder, const VolumeMesh& mesh,
     write_file(folder / "system/decomposeParDict", writer.decomposition());
     write_script(folder / "Allrun", false);
     write_script(folder / "Allrun.parallel", true);
-    write_file(folder / "README", readme(mesh, parameters, writer.flows()));
+    const std::string line = provenance.empty() ? "" : comment_line(provenance) + "\n";
+    write_file(folder / "README", line + readme(mesh, parameters, writer.flows()));
+    // Last: it makes the folder a case.
     write_file(folder / "system/controlDict",
-               writer.control());  // last: it makes the folder a case
+               (line.empty() ? "" : "// " + line) + writer.control());
 }
 
 }  // namespace vesselbench

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "geometry/kernel/progress.h"
 #include "meshing/products/cfd_parameters.h"
@@ -14,13 +15,15 @@ namespace vesselbench {
 /// scripts Allrun and Allrun.parallel. Walls are no-slip; at the outlets p = 0 (kinematic) and
 /// backflow enters at rest (inletOutlet); at the inlet the velocity is fixed, plug or parabolic,
 /// with exactly the given flow. simpleFoam writes mean pressure and flow of each opening, and the
-/// wall shear stress, to postProcessing/ and the last time folder. An existing case in the folder
+/// wall shear stress, to postProcessing/ and the last time folder. README and system/controlDict
+/// begin with the model's provenance, if it is given. An existing case in the folder
 /// is replaced (its results are kept).
 /// \throw InvalidInput if the mesh has no inlet or outlet; IoError if a file cannot be written, or
 ///        the folder contains something that is not a case; Cancelled, with some of the files
 ///        written
 void write_openfoam_case(const std::filesystem::path& folder, const VolumeMesh& mesh,
-                         const CfdParameters& parameters, const Progress& progress = {});
+                         const CfdParameters& parameters, const Progress& progress = {},
+                         const std::string& provenance = {});
 
 /// True for a folder that holds a case as write_openfoam_case() wrote it, and nothing else: no
 /// results, no files of others.

@@ -23,7 +23,8 @@ const std::vector<SurfaceFormat>& product_surface_formats() {
           .content = "binary glTF 2.0 for viewers, with a colour per patch",
           .unit = "m"},
          nullptr,
-         write_glb}};
+         [](const vesselbench::Surface& surface, const std::string& path, const Progress& progress,
+            const std::string&) { write_glb(surface, path, progress); }}};
     return rows;
 }
 
@@ -41,7 +42,8 @@ const std::vector<VolumeFormat>& volume_formats() {
           .suffixes = {".msh"},
           .content = "MSH 2.2 text, with patches as physical surfaces"},
          nullptr,
-         write_msh}};
+         [](const vesselbench::VolumeMesh& mesh, const std::string& path, const Progress& progress,
+            const std::string&) { write_msh(mesh, path, progress); }}};
     return rows;
 }
 

@@ -9,12 +9,14 @@
 
 namespace vesselbench {
 
-using VolumeFormat = FormatRow<VolumeMesh, VolumeMesh>;
+/// A writer takes the line on the model's provenance, as a SurfaceFormat's.
+using VolumeFormat = FormatRow<VolumeMesh, VolumeMesh, const std::string&>;
 
 /// A folder of files that a solver runs on.
 struct CaseFormat : Format {
     void (*write)(const std::filesystem::path& folder, const VolumeMesh& mesh,
-                  const CfdParameters& parameters, const Progress& progress) = nullptr;
+                  const CfdParameters& parameters, const Progress& progress,
+                  const std::string& provenance) = nullptr;
 };
 
 /// Surface formats for printers and viewers, written only.

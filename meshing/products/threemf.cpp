@@ -1,5 +1,6 @@
 #include "meshing/products/threemf.h"
 
+#include "geometry/formats/comment_line.h"
 #include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
@@ -31,12 +32,16 @@ std::string relationships() {
 )";
 }
 
-std::string model(const Surface& surface, LoopProgress rows) {
+std::string model(const Surface& surface, const std::string& provenance, LoopProgress rows) {
     TextBuffer out;
     out << kXml
         << R"(<model unit="millimeter" xml:lang="en-US" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02">
  <metadata name="Application">vesselbench</metadata>
- <resources>
+)";
+    if (!provenance.empty())
+        out << " <metadata name=\"Description\">" << xml_escaped(comment_line(provenance))
+            << "</metadata>\n";
+    out << R"( <resources>
   <object id="1" type="model">
    <mesh>
     <vertices>
@@ -74,7 +79,8 @@ void require_solid(const Surface& surface) {
 
 }  // namespace
 
-void write_3mf(const Surface& surface, const std::string& path, const Progress& progress) {
+void write_3mf(const Surface& surface, const std::string& path, const Progress& progress,
+               const std::string& provenance) {
     if (surface.empty()) throw InvalidInput("3MF: the surface has no triangles");
     require_solid(surface);
     const LoopProgress rows(progress.part(0.0, 0.5),
@@ -82,7 +88,7 @@ void write_3mf(const Surface& surface, const std::string& path, const Progress& 
     write_file(path,
                zip_archive({{"[Content_Types].xml", content_types()},
                             {"_rels/.rels", relationships()},
-                            {"3D/3dmodel.model", model(surface, rows)}},
+                            {"3D/3dmodel.model", model(surface, provenance, rows)}},
                            progress),
                progress);
 }

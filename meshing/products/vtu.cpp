@@ -6,9 +6,10 @@
 
 namespace vesselbench {
 
-void write_vtu(const VolumeMesh& mesh, const std::string& path, const Progress& progress) {
+void write_vtu(const VolumeMesh& mesh, const std::string& path, const Progress& progress,
+               const std::string& provenance) {
     if (mesh.tetrahedra.empty()) throw InvalidInput("VTU: the volume mesh has no cells");
-    VtkMesh grid{.points = mesh.points};
+    VtkMesh grid{.points = mesh.points, .provenance = provenance};
     LoopProgress rows(progress.part(0.0, 0.5), mesh.tetrahedra.size() + mesh.boundary.size(),
                       writing_text(path));
     for (const Tetrahedron& cell : mesh.tetrahedra) {

@@ -70,7 +70,7 @@ const std::map<std::string, Names> kDoors = {
     {"workbench/window/case",
      {"geometry/kernel", "geometry/vessel/centerlines", "smoothing/brush", "workbench/case",
       "workbench/session", "workbench/operations", "workbench/export", "workbench/report",
-      "workbench/prepare"}},
+      "workbench/review", "workbench/prepare"}},
     {"workbench/window/form",
      {"geometry/kernel", "geometry/image", "workbench/case", "workbench/session",
       "workbench/operations", "workbench/prepare", "workbench/window/case"}},

@@ -85,6 +85,10 @@ SCENARIO("A phantom becomes a model for planning and one for surgery simulation"
         const double skewness = report["quality"]["after"]["equiangle_skewness"]["mean"];
         CHECK((purpose == "planning") == (skewness > 0.2));  // only simulation asks for good ones
         CHECK_THAT(file_content(out + "/report.html"), Contains("Model for"));
+        REQUIRE(report["requirements"].size() == 6);
+        CHECK(report["requirements"][0]["figures"]["largest_mm"].is_number());
+        CHECK_THAT(file_content(out + "/report.html"),
+                   Contains("<h2>Requirements</h2>") && Contains("triangle size homogeneity"));
     }
 }
 

@@ -53,6 +53,22 @@ SCENARIO("A recipe is read from JSON", "[workbench][recipe]") {
           std::vector<std::string>{"smooth", "fill-hole"});
 }
 
+SCENARIO("A recipe can require that reviewers accept the model", "[workbench][recipe]") {
+    const Json list = Json::parse(R"([
+        {"require": "accepted"}, {"operation": "smooth"},
+        {"require": "accepted=3", "when": "rp"}, {"require": "accepted=2", "when": ["rp"]}])");
+    CHECK(reviewers_required(list, {"surface", "cfd"}) == 1);
+    CHECK(reviewers_required(list, {"surface", "rp"}) == 3);
+    CHECK(reviewers_required(Json::parse(R"([{"operation": "smooth"}])"), {"rp"}) == 0);
+    CHECK(operations_of(recipe_from_json(list, {"surface", "rp"})) ==
+          std::vector<std::string>{"smooth"});
+    refused(R"([{"require": "accept"}])", "require 'accept': give accepted");
+    refused(R"([{"operation": "smooth"}, {"require": "accepted=0"}])", "entry 2");
+    refused(R"([{"require": 2}])", "a text");
+    refused(R"([{"require": "accepted", "operation": "smooth"}])", "operation");
+    refused(R"([{"require": "accepted", "when": "today"}])", "today");
+}
+
 SCENARIO("An argument $purpose is the purpose's name", "[workbench][recipe]") {
     const Json list =
         Json::parse(R"([{"operation": "smooth", "arguments": {"preset": "$purpose"}}])");

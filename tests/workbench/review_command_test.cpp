@@ -194,6 +194,71 @@ SCENARIO("Signed verdicts are verified against allowed signers",
     }
 }
 
+SCENARIO("A recipe can require that reviewers have accepted the model",
+         "[workbench][command-line][review][prepare]") {
+    const std::string folder = temporary_folder(), out = folder + "/out";
+    write_surface(closed_tube(2.0, 20.0, 24, 40), folder + "/tube.vtp");
+    write_file(folder + "/gated.json", R"([{"operation": "repair"}, {"require": "accepted"}])");
+    std::vector<std::string> prepare = {"prepare",  folder + "/tube.vtp",   "--for", "planning",
+                                        "--recipe", folder + "/gated.json", "--out", out};
+    const ProgramRun first = run(prepare);
+    CHECK(first.exit_code == 1);
+    CHECK_THAT(first.err, Contains("1 load-surface (open), 2 repair (open)"));
+    CHECK(std::filesystem::exists(out + "/project.vbench"));
+    CHECK_FALSE(std::filesystem::exists(out + "/surface.stl"));
+    const Json stopped = Json::parse(file_content(out + "/report.json"));
+    CHECK(stopped["stopped"]["diagnostics"][0]["code"] == "not-accepted");
+    const bool has_page = first.err.find("was built without npm") == std::string::npos;
+    CHECK(std::filesystem::exists(out + "/review.html") == has_page);
+    prepare.emplace_back("--resume");
+    THEN("resuming asks again, also without the recipe, and keeps no older page") {
+        CHECK(run(prepare).exit_code == 1);
+        CHECK_FALSE(std::filesystem::exists(out + "/review.1.html"));
+        CHECK(run({"prepare", folder + "/tube.vtp", "--for", "planning", "--out", out, "--resume"})
+                  .exit_code == 1);
+        CHECK_FALSE(std::filesystem::exists(out + "/surface.stl"));
+    }
+    THEN("the products are written once it is accepted, and say so") {
+        const std::string project = out + "/project.vbench";
+        const std::string kern = verdicts(project, "A. Kern", "accept", folder + "/kern.json");
+        REQUIRE(run({"review", project, "--import", kern}).exit_code == 0);
+        const ProgramRun done = run(prepare);
+        INFO(done.err);
+        REQUIRE(done.exit_code == 0);
+        const std::string header = file_content(out + "/surface.stl").substr(0, 80);
+        CHECK_THAT(header, Contains("UNITS=mm, project project, planning, accepted by A. Kern"));
+        CHECK_THAT(file_content(out + "/surface.vtp"), Contains("accepted by A. Kern"));
+        const Json report = Json::parse(file_content(out + "/report.json"));
+        CHECK(report["review"]["state"] == "accepted by A. Kern");
+    }
+    THEN("another purpose is not asked") {
+        CHECK(
+            run({"prepare", folder + "/tube.vtp", "--for", "simulation", "--out", out, "--resume"})
+                .exit_code == 0);
+    }
+}
+
+SCENARIO("Products carry their review, and no time and no place",
+         "[workbench][command-line][review][prepare]") {
+    const std::string folder = temporary_folder();
+    write_surface(closed_tube(2.0, 20.0, 24, 40), folder + "/tube.vtp");
+    const auto prepared = [&](const std::string& out) {
+        REQUIRE(
+            run({"prepare", folder + "/tube.vtp", "--for", "planning", "--out", out}).exit_code ==
+            0);
+        return file_content(out + "/surface.vtp");
+    };
+    const std::string once = prepared(folder + "/once");
+    CHECK_THAT(once, Contains("not reviewed"));
+    CHECK(prepared(temporary_folder() + "/elsewhere") == once);
+    THEN("an export gives the same bytes again, although the record has grown") {
+        for (const char* name : {"/a.vtp", "/b.vtp"})
+            REQUIRE(run({"export", folder + "/once/project.vbench", folder + name}).exit_code == 0);
+        CHECK(file_content(folder + "/a.vtp") == file_content(folder + "/b.vtp"));
+        CHECK(file_content(folder + "/a.vtp") == once);
+    }
+}
+
 SCENARIO("Verdicts that are none are bad input", "[workbench][command-line][review]") {
     const std::string folder = temporary_folder(), project = new_project(folder);
     write_file(folder + "/v.json", R"({"format": "vesselbench-verdicts", "version": 9})");

@@ -17,22 +17,26 @@ std::span<const Purpose> purposes() {
          .products = {"volume.vtu", "volume.msh", "openfoam"},
          .result = "CFD case",
          .result_file = "openfoam",
-         .simulates_flow = true},
+         .simulates_flow = true,
+         .relevance = "+-++++"},
         {.name = "rp",
          .title = "Model for printing",
          .help = "printing (rp)",
          .summary = "Watertight, checked for thin places",
          .products = {"print.stl", "print.3mf"},
          .result = "print model",
-         .result_file = "print.stl"},
+         .result_file = "print.stl",
+         .relevance = "+-+o--"},
         {.name = "planning",
          .title = "Model for treatment planning",
          .help = "pictures\n(planning: keeps raw triangles)",
-         .summary = "Smooth surface with its own triangles"},
+         .summary = "Smooth surface with its own triangles",
+         .relevance = "+++o--"},
         {.name = "simulation",
          .title = "Model for surgery simulation",
          .help = "surgery simulation (simulation)",
-         .summary = "Smooth, remeshed surface"}};
+         .summary = "Smooth, remeshed surface",
+         .relevance = "-o+o++"}};
     return table;
 }
 

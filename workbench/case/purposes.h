@@ -16,6 +16,9 @@ struct Purpose {
     std::string result = "surface";          ///< what the user asked for
     std::string result_file = "surface.vtp";
     bool simulates_flow = false;  ///< the report describes volume mesh and flow
+    /// Relevance of small features, spatial relations, smoothness, high resolution, triangle
+    /// quality and triangle size homogeneity: '+' high, 'o' medium, '-' low (thesis Table 2.1).
+    std::string relevance = "";
 };
 
 /// All purposes.

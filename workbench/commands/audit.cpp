@@ -29,25 +29,6 @@ void print_entries(const RecordCheck& record) {
     std::cout << as_columns(rows);
 }
 
-std::string names_of(const Json& list) {
-    std::vector<std::string> names;
-    for (const Json& name : list) names.push_back(name.get<std::string>());
-    return names.empty() ? "-" : printable(joined(names));
-}
-
-/// "83 x 25 x 78"
-std::string numbers_text(const Json& value) {
-    if (value.is_number_float()) return formatted(value.get<double>(), "%.4g");
-    if (!value.is_array()) return value.dump();
-    std::vector<std::string> numbers;
-    for (const Json& number : value) numbers.push_back(numbers_text(number));
-    return joined(numbers, " x ");
-}
-
-std::string value_text(const Json& source, const char* key, const char* unit) {
-    return source.contains(key) ? ", " + numbers_text(source[key]) + unit : "";
-}
-
 std::string edit_text(const Json& edit) {
     std::string text = edit["operation"].get<std::string>();
     const auto arguments = edit["arguments"].get<std::string>(),
@@ -56,27 +37,16 @@ std::string edit_text(const Json& edit) {
     return text + (effect.empty() ? "" : "; " + effect);
 }
 
-/// What reports on patients' models state, without the edits, which are entries.
+/// What reports on patients' models should state, and the edits.
 void print_statement(const Json& statement) {
     if (statement.is_null()) return;
-    std::vector<std::vector<std::string>> rows;
-    for (const Json& source : statement["sources"])
-        rows.push_back({"source", source["file"].get<std::string>() +
-                                      value_text(source, "size_voxels", " voxels") +
-                                      value_text(source, "spacing_mm", " mm") +
-                                      value_text(source, "triangles", " triangles")});
-    for (const Json& edit : statement["segmentation"])
-        rows.push_back({"segmentation", edit_text(edit)});
+    std::vector<std::vector<std::string>> rows = {{"item", "what"}};
+    for (const Json& item : statement["items"])
+        rows.push_back({item["item"].get<std::string>(), item["text"].get<std::string>()});
+    rows.push_back({"review", statement["review"].get<std::string>()});
     for (const Json& edit : statement["edits"])
         rows.push_back(
             {"edit " + edit["edit"].dump() + "." + edit["revision"].dump(), edit_text(edit)});
-    rows.push_back({"operators", names_of(statement["operators"])});
-    for (const Json& reviewer : statement["reviewers"])
-        rows.push_back({"reviewer", reviewer["name"].get<std::string>() + " (" +
-                                        reviewer["role"].get<std::string>() + "), " +
-                                        names_of(reviewer["signatures"])});
-    rows.push_back({"review", statement["review"].get<std::string>()});
-    rows.push_back({"program", "vesselbench " + names_of(statement["program_versions"])});
     std::cout << as_columns(rows) << "\n";
 }
 

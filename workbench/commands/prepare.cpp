@@ -1,6 +1,5 @@
 #include "workbench/prepare/prepare.h"
 
-#include <charconv>
 #include <iostream>
 #include <utility>
 
@@ -20,6 +19,8 @@
 #include "workbench/prepare/end_settings.h"
 #include "workbench/prepare/prepared_purposes.h"
 #include "workbench/report/log_json.h"
+#include "workbench/review/acceptance.h"
+#include "workbench/review/provenance.h"
 #include "workbench/review/review.h"
 #include "workbench/session/export_record.h"
 #include "workbench/session/stored_texts.h"
@@ -50,22 +51,6 @@ void refuse_source(const Session& session, const std::string& file) {
     if (session.is_source(file))
         throw IoError("'" + std::filesystem::path(file).filename().string() +
                       "' is a source of this project: it is not replaced; give another name");
-}
-
-/// The number of reviewers that "accepted" or "accepted=2" asks for.
-/// \throw UsageError if it is neither
-std::size_t required_reviewers(const std::string& text) {
-    constexpr std::string_view kWord = "accepted";
-    std::size_t count = text == kWord ? 1 : 0;
-    if (text.starts_with(std::string(kWord) + "=")) {
-        const char* end = text.data() + text.size();
-        const auto read = std::from_chars(text.data() + kWord.size() + 1, end, count);
-        if (read.ec != std::errc() || read.ptr != end) count = 0;
-    }
-    if (count == 0)
-        throw UsageError("--require '" + text +
-                         "': give accepted, or accepted=N for N reviewers (at least 1)");
-    return count;
 }
 
 /// \throw UsageError unless the name is UTF-8
@@ -124,7 +109,7 @@ void export_project(const ExportArguments& arguments, const Progress& progress) 
     check_export_name(arguments.file);
     check_export_place(arguments.file);
     const std::size_t reviewers =
-        arguments.required.empty() ? 0 : required_reviewers(arguments.required);
+        arguments.required.empty() ? 0 : required_reviewers(arguments.required, "--require");
     Session session = Session::open(arguments.project, {.find = find_operation});
     std::vector<std::string> settings = arguments.settings;
     FlowSettings flow(stored_text(arguments.project, StoredText::Flow));
@@ -147,7 +132,9 @@ void export_project(const ExportArguments& arguments, const Progress& progress) 
                    printable(entry.edit.operation) +
                    " no longer applies and is not in the model: " + entry.reason);
     PendingFiles files;
-    export_scene(files, arguments.file, scene, flow.parameters(), progress.part(0.7, 1.0));
+    export_scene(files, arguments.file, scene,
+                 {.flow = flow.parameters(), .provenance = provenance(session, variant)},
+                 progress.part(0.7, 1.0));
     progress.check_cancelled();
     files.commit();
     record_export(session, arguments.file, variant);

@@ -25,8 +25,8 @@ void add_surfaces(std::vector<ExportFormat>& all, const std::vector<SurfaceForma
         if (row.write)
             all.push_back(
                 {row, [write = row.write](const Scene& scene, const std::string& path,
-                                          const CfdParameters&, const Progress& progress) {
-                     write(surface_of(scene), path, progress);
+                                          const ExportOptions& options, const Progress& progress) {
+                     write(surface_of(scene), path, progress, options.provenance);
                  }});
 }
 
@@ -35,15 +35,16 @@ std::vector<ExportFormat> joined_rows() {
     add_surfaces(all, surface_formats());
     add_surfaces(all, product_surface_formats());
     for (const VolumeFormat& row : volume_formats())
-        all.push_back({row, [write = row.write](const Scene& scene, const std::string& path,
-                                                const CfdParameters&, const Progress& progress) {
-                           write(volume_mesh_of(scene), path, progress);
-                       }});
+        all.push_back(
+            {row, [write = row.write](const Scene& scene, const std::string& path,
+                                      const ExportOptions& options, const Progress& progress) {
+                 write(volume_mesh_of(scene), path, progress, options.provenance);
+             }});
     for (const CaseFormat& row : case_formats())
         all.push_back(
             {row, [write = row.write](const Scene& scene, const std::string& path,
-                                      const CfdParameters& flow, const Progress& progress) {
-                 write(path, volume_mesh_of(scene), flow, progress);
+                                      const ExportOptions& options, const Progress& progress) {
+                 write(path, volume_mesh_of(scene), options.flow, progress, options.provenance);
              }});
     return all;
 }

@@ -11,10 +11,16 @@
 
 namespace vesselbench {
 
+/// What an export says beside the scene; each format takes its own part.
+struct ExportOptions {
+    CfdParameters flow = {};      ///< of a solver's case
+    std::string provenance = {};  ///< line for the file's header, as provenance() makes it
+};
+
 /// A format that a scene can be exported in.
 struct ExportFormat : Format {
     /// \throw AlgorithmFailure if the scene has no such content, Cancelled within the file
-    std::function<void(const Scene&, const std::string& path, const CfdParameters&,
+    std::function<void(const Scene&, const std::string& path, const ExportOptions&,
                        const Progress&)>
         write;
 };

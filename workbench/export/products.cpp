@@ -10,7 +10,6 @@
 #include "workbench/case/json_text.h"
 #include "workbench/case/near_names.h"
 #include "workbench/case/purposes.h"
-#include "workbench/export/export_formats.h"
 #include "workbench/export/flow_parameters.h"
 
 namespace vesselbench {
@@ -102,10 +101,10 @@ void check_export_place(const fs::path& file) {
 }
 
 void export_scene(PendingFiles& files, const fs::path& file, const Scene& scene,
-                  const CfdParameters& flow, const Progress& progress) {
+                  const ExportOptions& options, const Progress& progress) {
     check_export_name(file);
     check_export_place(file);
-    format_of(file)->write(scene, files.add(without_last_slash(file)).string(), flow, progress);
+    format_of(file)->write(scene, files.add(without_last_slash(file)).string(), options, progress);
 }
 
 }  // namespace vesselbench

@@ -8,6 +8,7 @@
 #include "meshing/products/cfd_parameters.h"
 #include "workbench/case/operation.h"
 #include "workbench/case/scene.h"
+#include "workbench/export/export_formats.h"
 
 namespace vesselbench {
 
@@ -50,6 +51,6 @@ void check_export_place(const std::filesystem::path& file);
 /// \throw UsageError that lists the suffixes if none matches, AlgorithmFailure if the scene has no
 /// such content, IoError, Cancelled
 void export_scene(PendingFiles& files, const std::filesystem::path& file, const Scene& scene,
-                  const CfdParameters& flow, const Progress& progress = {});
+                  const ExportOptions& options, const Progress& progress = {});
 
 }  // namespace vesselbench

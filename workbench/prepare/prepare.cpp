@@ -14,6 +14,7 @@
 #include "workbench/case/purposes.h"
 #include "workbench/export/products.h"
 #include "workbench/operations/table.h"
+#include "workbench/prepare/acceptance_gate.h"
 #include "workbench/prepare/apply_recipe.h"
 #include "workbench/prepare/model_check.h"
 #include "workbench/prepare/prepare_report.h"
@@ -23,6 +24,7 @@
 #include "workbench/prepare/result_folder.h"
 #include "workbench/prepare/resume.h"
 #include "workbench/prepare/resumed_recipe.h"
+#include "workbench/review/provenance.h"
 #include "workbench/session/export_record.h"
 #include "workbench/session/stored_texts.h"
 
@@ -76,12 +78,17 @@ Json recipe_json_from(const PrepareOptions& options, const Input& input) {
 }
 
 /// The recipe preceded by the edit that loads the input, with its files and units filled in.
-Recipe recipe_for(const PrepareOptions& options, const Input& input) {
-    Recipe recipe = input_recipe(input, options.purpose, recipe_json_from(options, input));
+Recipe recipe_for(const PrepareOptions& options, const Input& input, const Json& json) {
+    Recipe recipe = input_recipe(input, options.purpose, json);
     set_arguments(recipe, options.arguments);
     // No entry runs if a later one cannot.
     for (const RecipeEntry& entry : recipe) check_complete(entry.given);
     return recipe;
+}
+
+/// By the recipe; the built-in one asks for none.
+std::size_t reviewers_asked(const PrepareOptions& options, const Input& input, const Json& json) {
+    return json.is_null() ? 0 : reviewers_required(json, recipe_use(input, options.purpose));
 }
 
 /// The folder's project: a new one, for which an earlier one is renamed while no other process can
@@ -199,8 +206,10 @@ void tell_remaining(const std::vector<std::string>& names, const Teller& tell) {
                    .words = {{"files", enumerated(names)}}});
 }
 
-void write_products(PendingFiles& files, const PrepareOptions& options, PreparedCase& prepared,
-                    const Progress& progress) {
+void write_products(PendingFiles& files, const Session& session, const PrepareOptions& options,
+                    PreparedCase& prepared, const Progress& progress) {
+    const ExportOptions how{.flow = prepared.flow,
+                            .provenance = provenance(session, options.purpose)};
     const std::vector<std::string> names = product_names(options.purpose);
     const auto done = [&](std::size_t count) {
         return static_cast<double>(count) / static_cast<double>(names.size());
@@ -208,7 +217,7 @@ void write_products(PendingFiles& files, const PrepareOptions& options, Prepared
     for (std::size_t i = 0; i < names.size(); ++i) {
         const Progress one = progress.part(done(i), done(i + 1));
         one.report(0.0, "writing the products");
-        export_scene(files, options.out / names[i], prepared.scene, prepared.flow, one);
+        export_scene(files, options.out / names[i], prepared.scene, how, one);
         prepared.products.push_back(names[i]);
     }
 }
@@ -229,7 +238,7 @@ PrepareSummary write_results(Session& session, const PrepareOptions& options, Pr
     keep_irreplaceable(options.out, names, tell);
     prepared.earlier_results = remaining_results(options.out, names, earlier);
     PendingFiles files;
-    write_products(files, options, prepared, progress.part(0.0, 0.3));
+    write_products(files, session, options, prepared, progress.part(0.0, 0.3));
     const PreparedReport report = prepare_report(session, prepared, progress.part(0.3, 1.0));
     files.add_mark(options.out / "report.html",
                    report_html(report.document, report.pictures, report.sections));
@@ -272,6 +281,8 @@ PrepareSummary finished(Session& session, const Recipe& rest, const PrepareOptio
     const std::string openings = openings_text(surface_of(prepared.scene));
     if (!openings.empty()) tell("openings: " + openings);
     try {
+        pass_gate(session, options.purpose, prepared.reviewers, options.out, tell,
+                  progress.silent());
         return write_results(session, options, std::move(prepared), tell,
                              progress.part(kEditsShare, 1.0));
     } catch (const InvalidInput& error) {
@@ -293,7 +304,8 @@ PrepareSummary prepare(const PrepareOptions& options, const Teller& tell,
     FlowSettings flow(options.resume ? stored_text(project, StoredText::Flow) : "");
     flow.take(for_recipe.arguments);
     prepared.flow = flow.parameters();
-    Recipe recipe = recipe_for(for_recipe, input);
+    const Json recipe_json = recipe_json_from(options, input);
+    Recipe recipe = recipe_for(for_recipe, input, recipe_json);
     refuse_own_input(options, input);
     const ResultFolder folder(options.out);
     Session session = opened_project(options, tell);
@@ -307,6 +319,8 @@ PrepareSummary prepare(const PrepareOptions& options, const Teller& tell,
         }
         keep_name(project, input);
         begin_purpose(project, options.purpose);
+        prepared.reviewers =
+            kept_reviewers(project, options.purpose, reviewers_asked(options, input, recipe_json));
         if (!flow.stored().empty()) store_text(project, StoredText::Flow, flow.stored());
         const Teller noting(
             [&](const std::string& text) {

@@ -20,9 +20,11 @@
 #include "workbench/operations/shared/context_weights.h"
 #include "workbench/operations/shared/opening_json.h"
 #include "workbench/operations/table.h"
+#include "workbench/prepare/model_figures.h"
 #include "workbench/prepare/recipe_run.h"
 #include "workbench/report/log_json.h"
 #include "workbench/report/report_pictures.h"
+#include "workbench/report/requirements.h"
 #include "workbench/review/review.h"
 #include "workbench/session/source_counterpart.h"
 
@@ -244,8 +246,10 @@ PreparedReport prepare_report(Session& session, const PreparedCase& prepared,
     const Scene source = source_edit ? session.scene_after(*source_edit) : Scene{};
     progress.report(0.1, "measuring");
     add_quality(report, source, surface);
-    const std::vector<std::uint8_t> comparable =
-        comparable_vertices(surface, made_ends(session, prepared.purpose));
+    const std::vector<MadeEnd> ends = made_ends(session, prepared.purpose);
+    report["requirements"] = requirements_json(requirements_of(
+        find_purpose(prepared.purpose), model_figures(source, prepared.scene, ends, edits)));
+    const std::vector<std::uint8_t> comparable = comparable_vertices(surface, ends);
     const Positions compared = comparable_points(surface, comparable);
     if (source.surface) {
         report["distance_to_source"] = distances_json(compared, *source.surface);

@@ -18,6 +18,7 @@ struct PreparedCase {
     Input input;
     Scene scene;  ///< the result
     CfdParameters flow;
+    std::size_t reviewers = 0;                 ///< who have to accept it; 0: nobody
     std::vector<std::string> products;         ///< names of the files and folders written
     std::vector<std::string> earlier_results;  ///< names of those in the same folder
     std::vector<Diagnostic> warnings;          ///< beside those of the edits

@@ -1,7 +1,7 @@
 #include "workbench/prepare/recipe.h"
 
 #include <algorithm>
-#include <set>
+#include <functional>
 
 #include <nlohmann/json.hpp>
 
@@ -16,6 +16,7 @@
 #include "workbench/case/purposes.h"
 #include "workbench/operations/table.h"
 #include "workbench/prepare/builtin_recipes.h"
+#include "workbench/review/acceptance.h"
 
 namespace vesselbench {
 
@@ -104,6 +105,32 @@ RecipeEntry entry_from_json(const Json& json) {
     return entry;
 }
 
+/// True for an entry that asks for a review of the others.
+bool is_gate(const Json& entry) {
+    return entry.contains("require");
+}
+
+std::size_t reviewers_of(const Json& gate) {
+    JsonFields fields(gate, "the entry");
+    const auto text = fields.required<std::string>("require");
+    (void)fields.child("when");
+    fields.refuse_unknown_keys();
+    return required_reviewers(text, "require");
+}
+
+/// \throw UsageError that names the entry in which `read` finds a mistake
+void read_entries(const Json& list, const std::function<void(const Json&)>& read) {
+    if (!list.is_array()) throw UsageError("a recipe is a JSON list of operations");
+    for (std::size_t i = 0; i < list.size(); ++i) try {
+            if (!list[i].is_object()) throw UsageError("it is not a JSON object");
+            read(list[i]);
+        } catch (const UsageError& error) {
+            throw UsageError("recipe, entry " + std::to_string(i + 1) + ": " + error.what());
+        } catch (const InvalidInput& error) {
+            throw UsageError("recipe, entry " + std::to_string(i + 1) + ": " + error.what());
+        }
+}
+
 }  // namespace
 
 Step step_of(const RecipeEntry& entry) {
@@ -121,19 +148,24 @@ Step step_from(const std::string& name) {
 }
 
 Recipe recipe_from_json(const Json& list, const RecipeUse& use) {
-    if (!list.is_array()) throw UsageError("a recipe is a JSON list of operations");
     Recipe recipe;
-    for (std::size_t i = 0; i < list.size(); ++i) try {
-            if (!list[i].is_object()) throw UsageError("it is not a JSON object");
-            refuse_unknown_keys(list[i]);
-            RecipeEntry entry = entry_from_json(with_purpose(list[i], use));
-            if (is_used(list[i], use)) recipe.push_back(std::move(entry));
-        } catch (const UsageError& error) {
-            throw UsageError("recipe, entry " + std::to_string(i + 1) + ": " + error.what());
-        } catch (const InvalidInput& error) {
-            throw UsageError("recipe, entry " + std::to_string(i + 1) + ": " + error.what());
-        }
+    read_entries(list, [&](const Json& json) {
+        const bool used = is_used(json, use);
+        if (is_gate(json)) return void(reviewers_of(json));
+        refuse_unknown_keys(json);
+        RecipeEntry entry = entry_from_json(with_purpose(json, use));
+        if (used) recipe.push_back(std::move(entry));
+    });
     return recipe;
+}
+
+std::size_t reviewers_required(const Json& list, const RecipeUse& use) {
+    std::size_t reviewers = 0;
+    read_entries(list, [&](const Json& json) {
+        if (is_gate(json) && is_used(json, use))
+            reviewers = std::max(reviewers, reviewers_of(json));
+    });
+    return reviewers;
 }
 
 Json recipe_to_json(const Recipe& recipe) {

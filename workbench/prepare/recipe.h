@@ -37,11 +37,19 @@ using RecipeUse = std::vector<std::string>;  ///< of "surface" or "image", "mask
 ///     "optional": true|false      "otherwise": {parameter: value}    "unless_closed": true|false
 ///     "when": word or [words]     "unless_made": {"operation": name, "arguments": {...}}
 ///
+/// An entry {"require": "accepted=2", "when": ...} is none of them: reviewers_required() reads it.
 /// An entry is used if each word of its "when" is in `use`, and each word prefixed by "no-" is not.
 /// The argument "$purpose" is the purpose's name: presets are named like purposes. The arguments of
 /// all entries are checked, also of those that are not used; required ones may still be absent.
 /// \throw UsageError that names the entry and the mistake
 [[nodiscard]] Recipe recipe_from_json(const nlohmann::ordered_json& list, const RecipeUse& use);
+
+/// The number of reviewers who have to accept every edit before `prepare` writes its products: the
+/// largest of a recipe's entries {"require": "accepted"} and {"require": "accepted=N"} that are
+/// used; 0: it has none.
+/// \throw UsageError that names the entry and the mistake
+[[nodiscard]] std::size_t reviewers_required(const nlohmann::ordered_json& list,
+                                             const RecipeUse& use);
 
 /// The JSON list from which recipe_from_json() reads the same entries, whatever their use.
 [[nodiscard]] nlohmann::ordered_json recipe_to_json(const Recipe& recipe);

@@ -11,6 +11,7 @@
 #include "workbench/report/base64.h"
 #include "workbench/report/rendered_template.h"
 #include "workbench/report/report_template.h"
+#include "workbench/report/requirements.h"
 
 namespace vesselbench {
 
@@ -218,6 +219,21 @@ Json ends(const Json& report) {
     return list;
 }
 
+/// The sheet of thesis Table 2.1.
+Json requirements(const Json& report) {
+    Json list = Json::array();
+    for (const Json& row : part_of(report, "requirements")) {
+        Json texts =
+            texts_of(row, {"requirement", "relevance", "figures", "limit", "reason", "judgement"});
+        const Json& judgement = part_of(row, "judgement");
+        texts["class"] = judgement == to_string(Judgement::Met)      ? "good"
+                         : judgement == to_string(Judgement::NotMet) ? "bad"
+                                                                     : "";
+        list.push_back(std::move(texts));
+    }
+    return list;
+}
+
 /// Those of every report, beside the ones that operations declare.
 const std::vector<ReportSection>& usual_sections() {
     static const std::vector<ReportSection> sections = {
@@ -287,11 +303,12 @@ std::string report_html(const Json& report, std::span<const ReportPicture> pictu
                  {"pictures", gallery(pictures)},
                  {"steps", steps},
                  {"quality", quality(report)},
+                 {"requirements", requirements(report)},
                  {"openings", openings(report)},
                  {"ends", ends(report)},
                  {"sections", sections_of(report, sections)},
                  {"products", texts_of(part_of(report, "products"))}};
-    for (const char* list : {"warnings", "pictures", "ends"})
+    for (const char* list : {"warnings", "pictures", "requirements", "ends"})
         page[std::string("any_") + list] = !page[list].empty();
     return rendered_template(report_templates().at("report.html"), page);
 }

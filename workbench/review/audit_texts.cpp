@@ -74,6 +74,7 @@ std::string words_of(const std::string& kind, const Json& facts) {
 std::string value_words(const Json& value) {
     if (value.is_string()) return value.get<std::string>();
     if (value.is_null()) return "-";
+    if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
     return value.is_number_float() ? formatted(value.get<double>(), "%.4g") : value.dump();
 }
 

@@ -12,6 +12,7 @@
 #include "workbench/project/project.h"
 #include "workbench/report/log_json.h"
 #include "workbench/review/known_operation.h"
+#include "workbench/review/reporting_items.h"
 
 namespace vesselbench {
 
@@ -77,7 +78,8 @@ Json reviewers_json(const Review& review) {
 
 }  // namespace
 
-Json statement_of(const Session& session, const Review& review, const OperationLookup& find) {
+Json statement_of(const Session& session, const Review& review,
+                  std::span<const ChainEntry> entries, const OperationLookup& find) {
     std::set<std::string> versions, operators;
     Json sources = Json::array(), segmentation = Json::array(), edits = Json::array();
     for (const LogEntry& entry : session.log()) {
@@ -86,13 +88,21 @@ Json statement_of(const Session& session, const Review& review, const OperationL
         if (entry.result) versions.insert(entry.result->program_version);
         add_sources(session, entry, sources);
         edits.push_back(edit_json(entry, operation));
-        if (operation != nullptr && operation->recipe.makes_source)
-            segmentation.push_back(edits.back());
+        if (operation == nullptr || !operation->recipe.makes_source) continue;
+        segmentation.push_back(edits.back());
+        segmentation.back()["loaded"] = operation->recipe.loads.has_value();
     }
-    return {{"program_versions", versions},  {"sources", sources},
-            {"segmentation", segmentation},  {"edits", edits},
-            {"operators", operators},        {"reviewers", reviewers_json(review)},
-            {"review", review_words(review)}};
+    Json statement = {{"program_versions", versions},
+                      {"variants", session.snapshot()->history->variants()},
+                      {"sources", sources},
+                      {"segmentation", segmentation},
+                      {"edits", edits},
+                      {"operators", operators},
+                      {"reviewers", reviewers_json(review)},
+                      {"review", review_words(review)},
+                      {"exports", exports_json(entries)}};
+    statement["items"] = reporting_items(statement);
+    return statement;
 }
 
 }  // namespace vesselbench

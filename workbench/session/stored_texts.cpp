@@ -22,6 +22,8 @@ std::string key_of(StoredText which) {
             return "purposes";
         case StoredText::InputName:
             return "input name";
+        case StoredText::Acceptance:
+            return "acceptance";
         case StoredText::CaseFolder:
             return "case folder";
         case StoredText::Measures:

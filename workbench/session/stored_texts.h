@@ -14,6 +14,7 @@ enum class StoredText {
     Warnings,    ///< of a recipe, beside those of the edits
     Purposes,    ///< that it was prepared for, the last one last
     InputName,   ///< the one that was given in place of the input's own
+    Acceptance,  ///< how many reviewers a purpose's products require, by its name
     CaseFolder,  ///< where the files of these recipes are, relative to the project's folder
     Measures     ///< stored_measures.h
 };

@@ -20,6 +20,7 @@
 #include "workbench/export/export_formats.h"
 #include "workbench/export/products.h"
 #include "workbench/prepare/prepared_purposes.h"
+#include "workbench/review/provenance.h"
 #include "workbench/session/export_record.h"
 #include "workbench/session/stored_texts.h"
 #include "workbench/window/case/rail.h"
@@ -428,8 +429,9 @@ void Document::export_to(const std::filesystem::path& file) {
         require_no_source(session, file);
         const Scene scene = session.scene(variant, progress.part(0.0, 0.7));
         PendingFiles files;
+        const FlowSettings flow(stored_text(project, StoredText::Flow));
         export_scene(files, file, scene,
-                     FlowSettings(stored_text(project, StoredText::Flow)).parameters(),
+                     {.flow = flow.parameters(), .provenance = provenance(session, variant)},
                      progress.part(0.7, 1.0));
         progress.check_cancelled();
         files.commit();

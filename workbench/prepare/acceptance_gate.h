@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+
+#include "workbench/prepare/apply_recipe.h"
+
+namespace vesselbench {
+
+/// The number of reviewers who have to accept a purpose's model before its products are written; 0:
+/// none. A project keeps the largest that a recipe has asked for, so that resuming without that
+/// recipe asks for no less.
+/// \param asked by the recipe that runs
+/// \throw IoError, InvalidInput if the project cannot be read or written
+[[nodiscard]] std::size_t kept_reviewers(const std::filesystem::path& project,
+                                         const std::string& purpose, std::size_t asked);
+
+/// Returns if so many reviewers have accepted every edit of the purpose's model. Else the folder
+/// gets review.html, the page for the reviewers.
+/// \throw DiagnosedFailure `not-accepted` that names what is missing
+void pass_gate(Session& session, const std::string& purpose, std::size_t reviewers,
+               const std::filesystem::path& folder, const Teller& tell, const Progress& progress);
+
+}  // namespace vesselbench

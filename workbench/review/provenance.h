@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+#include "workbench/session/session.h"
+
+namespace vesselbench {
+
+/// One line for the headers of exported files: "project carotid, cfd, accepted by A. Kern, model
+/// 1a2b3c4d5e6f". The model's digits are the first of the SHA-256 that its result has in the
+/// record. It depends on the edits and verdicts alone, neither on times nor on where the project
+/// is: two preparations of the same input write the same bytes, and so do two exports of a project.
+/// The record's head does neither, as it binds times, and every export adds an entry.
+/// \throw InvalidInput if stored verdicts are damaged
+[[nodiscard]] std::string provenance(const Session& session, const std::string& variant);
+
+}  // namespace vesselbench
