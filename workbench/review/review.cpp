@@ -91,18 +91,28 @@ void add_verdicts(const std::vector<VerdictFile>& files, ReviewedEdit& edit) {
     edit.status = status_of(edit.verdicts);
 }
 
-void add_pins(const std::vector<VerdictFile>& files, ReviewedEdit& edit) {
+/// True of an edit that is listed only because its reviewer saw it, for a verdict on the whole.
+bool says_nothing(const EditVerdict& verdict) {
+    return verdict.verdict == Verdict::None && verdict.comment.empty() && verdict.pins.empty() &&
+           verdict.distances.empty();
+}
+
+void add_marks(const std::vector<VerdictFile>& files, ReviewedEdit& edit) {
     std::map<std::string, const EditVerdict*> newest;
     for (const VerdictFile& file : files)
         for (const EditVerdict& verdict : file.edits) {
-            if (verdict.edit.id != edit.edit.id) continue;
+            if (verdict.edit.id != edit.edit.id || says_nothing(verdict)) continue;
             const EditVerdict*& found = newest[file.reviewer];
             if (found == nullptr || found->time <= verdict.time) found = &verdict;
         }
-    for (const auto& [reviewer, verdict] : newest)
+    for (const auto& [reviewer, verdict] : newest) {
+        const bool outdated = verdict->hash != edit.hash;
         for (const Pin& pin : verdict->pins)
-            edit.pins.push_back(
-                {.reviewer = reviewer, .pin = pin, .outdated = verdict->hash != edit.hash});
+            edit.pins.push_back({.reviewer = reviewer, .pin = pin, .outdated = outdated});
+        for (const ReviewedDistance& distance : verdict->distances)
+            edit.distances.push_back(
+                {.reviewer = reviewer, .distance = distance, .outdated = outdated});
+    }
 }
 
 Review review_of(const ProjectFile& project, const std::vector<LogEntry>& log) {
@@ -115,7 +125,7 @@ Review review_of(const ProjectFile& project, const std::vector<LogEntry>& log) {
                                                    .operation = entry.edit.operation,
                                                    .hash = edit_hash(project, entry)});
         add_verdicts(files, edit);
-        add_pins(files, edit);
+        add_marks(files, edit);
     }
     ByReviewer overall;
     for (const VerdictFile& file : files)
@@ -210,6 +220,21 @@ ImportedVerdicts enter(Session& session, VerdictFile verdicts, const std::string
     return done;
 }
 
+/// \param said verdicts, to which time, reviewer and origin are added
+ImportedVerdicts enter_now(Session& session, const Reviewer& reviewer, VerdictFile said) {
+    const ProjectFile& project = session.project();
+    said.program = version();
+    said.project = project.id();
+    said.project_name = project.name();
+    said.chain_head = project.record_head();
+    said.reviewer = reviewer.name;
+    said.role = reviewer.role;
+    said.written = utc_now();
+    for (EditVerdict& verdict : said.edits) verdict.time = said.written;
+    const std::string name = "the verdict";
+    return enter(session, verdicts_from_text(text_of(said), name), name);
+}
+
 }  // namespace
 
 std::string to_string(ReviewStatus status) {
@@ -262,6 +287,10 @@ ReviewStatus status_of(const Review& review) {
     return Accepted;
 }
 
+ReviewStatus status_of_whole(const Review& review) {
+    return status_of(review.overall);
+}
+
 std::string review_words(const Review& review) {
     if (review.files == 0) return "not reviewed";
     const ReviewStatus status = status_of(review);
@@ -309,19 +338,15 @@ ImportedVerdicts import_verdicts(Session& session, const std::filesystem::path& 
 }
 
 ImportedVerdicts enter_verdict(Session& session, const Reviewer& reviewer, EditVerdict verdict) {
-    const ProjectFile& project = session.project();
-    const std::string now = utc_now();
-    verdict.time = now;
-    const VerdictFile file{.program = version(),
-                           .project = project.id(),
-                           .project_name = project.name(),
-                           .chain_head = project.record_head(),
-                           .reviewer = reviewer.name,
-                           .role = reviewer.role,
-                           .written = now,
-                           .edits = {std::move(verdict)}};
-    const std::string name = "the verdict";
-    return enter(session, verdicts_from_text(text_of(file), name), name);
+    return enter_now(session, reviewer, {.edits = {std::move(verdict)}});
+}
+
+ImportedVerdicts enter_overall(Session& session, const Reviewer& reviewer, const Review& seen,
+                               Verdict verdict, const std::string& comment) {
+    VerdictFile said{.overall = verdict, .overall_comment = comment};
+    for (const ReviewedEdit& edit : seen.edits)
+        said.edits.push_back({.edit = edit.edit, .hash = edit.hash});
+    return enter_now(session, reviewer, std::move(said));
 }
 
 }  // namespace vesselbench
