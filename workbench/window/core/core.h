@@ -101,9 +101,9 @@ public:
 
     [[nodiscard]] bool searches_places() const { return search_.pending(); }
 
-    /// True if clicks on the model and in slices measure, and are for nothing else.
-    [[nodiscard]] bool is_measuring() const {
-        return view.tool != MeasureTool::None && armed().empty();
+    /// True if clicks on the model and in slices are for a tool, and for nothing else.
+    [[nodiscard]] bool has_click_tool() const {
+        return view.tool != ClickTool::None && armed().empty();
     }
 
     // --- questions for a file

@@ -214,7 +214,7 @@ bool Viewport::Impl::handle_gallery(PanelContext& c) {
     const bool over = cell && ImGui::IsItemHovered();
     if (over && gallery.magnifies()) gallery.zoom(ImGui::GetIO().MouseWheel);
     const bool taken =
-        over && !c.place.is_measuring() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
+        over && !c.place.has_click_tool() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
     if (taken) c.place.get<GalleryFeature>().take(*cell);
     return pressed_spot || taken || (over && gallery.magnifies() && !ImGui::IsItemActive());
 }
@@ -225,7 +225,7 @@ void Viewport::Impl::handle_mouse(PanelContext& c) {
     if (!ImGui::IsItemHovered()) return;
     camera.handle_wheel(screen(), mouse_on_model(), c.place.view.clip);
     const bool busy = c.place.get<BrushFeature>().can_paint() ||
-                      c.place.view.tool != MeasureTool::None || camera.is_inside() ||
+                      c.place.view.tool != ClickTool::None || camera.is_inside() ||
                       places.took_click() || handles.has_cursor() || ends.has_cursor();
     if (busy || !scene.is_drawn() || !double_clicked()) return;
     look();

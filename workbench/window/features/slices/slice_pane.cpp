@@ -76,7 +76,7 @@ MeasuredOn measured_on(SlicePlane plane) {
 /// A click does not move the cross: it is for the armed parameter, or measures a distance.
 bool takes_clicks(const Core& place) {
     return place.armed_target() ||
-           (place.is_measuring() && place.view.tool == MeasureTool::Distance);
+           (place.has_click_tool() && place.view.tool == ClickTool::Distance);
 }
 
 /// A line with a gap in its middle.
@@ -162,7 +162,7 @@ void SlicePane::handle_click(PanelContext& c) {
     if (!takes_clicks(c.core) || !pointed_ || !still || io.KeyShift ||
         !c.core.get<SlicesFeature>().slices().value_at(*pointed_))
         return;
-    if (c.core.is_measuring())
+    if (c.core.has_click_tool())
         return c.core.get<MeasuresFeature>().measures().click(
             *pointed_, c.core.get<MeasuresFeature>().measured_model(measured_on(plane_)));
     const auto target = c.core.armed_target();
