@@ -113,7 +113,11 @@ public:
     [[nodiscard]] const std::string& asked_parameter() const { return asked_parameter_; }
 
     void ask(FileQuestion question, const std::string& parameter = {});
-    void answer(const std::filesystem::path& file);
+
+    /// The file that was asked for; several where takes_several() allows them: each by itself.
+    void answer(const std::vector<std::filesystem::path>& files);
+
+    void answer(const std::filesystem::path& file) { answer(std::vector{file}); }
 
 private:
     void for_listeners(const Listen& call) override;
@@ -124,6 +128,7 @@ private:
 
     void take_case();
     void renew_lists();
+    void answer(FileQuestion question, const std::filesystem::path& file);
     void save_recipe(const std::filesystem::path& file);
     [[nodiscard]] bool update_places();
     void search_places(const Scene* scene, bool tips);
