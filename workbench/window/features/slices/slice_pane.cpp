@@ -12,6 +12,7 @@
 #include "workbench/window/drawing/view_overlays.h"
 #include "workbench/window/features/measures/measure_drawing.h"
 #include "workbench/window/features/measures/measures_feature.h"
+#include "workbench/window/features/review/review_marks.h"
 #include "workbench/window/features/slices/slices_feature.h"
 #include "workbench/window/form/picked_text.h"
 #include "workbench/window/style/icons.h"
@@ -328,6 +329,11 @@ void SlicePane::draw(PanelContext& c, const PaneSource& source, const ScreenRect
     draw_measures_in_slice(c, screen(), normal,
                            c.core.get<SlicesFeature>().slices().position(plane_),
                            kNearSlice * grid_.step[normal]);
+    draw_review_marks_in_slice(c, screen(),
+                               {.item = key,
+                                .axis = normal,
+                                .position = c.core.get<SlicesFeature>().slices().position(plane_),
+                                .away = 0.5 * grid_.step[normal]});
     crop_.draw(c, screen());
     draw_switch(c);
     draw_slider(c, {rect.x, rect.y + rect_.height, rect.width, slider});
