@@ -233,7 +233,8 @@ SCENARIO("The whole model is judged without a file", "[review]") {
         REQUIRE(review.overall.size() == 1);
         CHECK(review.overall[0].comment == "a branch is missing");
         CHECK_FALSE(review.overall[0].outdated);
-        CHECK_THROWS_WITH(require_accepted(review, 1), Contains("not-accepted"));
+        CHECK_THROWS_WITH(require_accepted(review, 1),
+                          Contains("the whole model (rejected by A. Kern)"));
         THEN("the verdicts and marks on edits are what they were") {
             CHECK(statuses(session) == kAllAccepted);
             CHECK(review.edits.at(1).pins.size() == 1);
