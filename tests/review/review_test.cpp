@@ -8,6 +8,7 @@
 #include "tests/session/sphere_session.h"
 #include "workbench/project/project.h"
 #include "workbench/project/record_check.h"
+#include "workbench/review/verdict_draft.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;
@@ -213,6 +214,92 @@ SCENARIO("A verdict is entered without a file", "[review]") {
         CHECK_THROWS_AS(enter_verdict(session, kern, said), InvalidInput);
         CHECK(review_of(session).files == 0);
     }
+}
+
+SCENARIO("The whole model is judged without a file", "[review]") {
+    const std::string project = reviewed_project();
+    Session session = Session::open(project, options());
+    const Reviewer kern{"A. Kern", "radiologist"};
+    VerdictFile pinned = verdicts_on(session, "A. Kern", Verdict::Accept, "2020-01-01T00:00:00Z");
+    pinned.overall = Verdict::None;
+    pinned.edits[1].pins = {{.place = Vec3(1, 2, 3), .text = "look here"}};
+    enter(session, project, pinned);
+    const Review seen = review_of(session);
+    CHECK(status_of_whole(seen) == ReviewStatus::Open);
+    WHEN("it is rejected") {
+        enter_overall(session, kern, seen, Verdict::Reject, "a branch is missing");
+        const Review review = review_of(session);
+        CHECK(status_of_whole(review) == ReviewStatus::Rejected);
+        REQUIRE(review.overall.size() == 1);
+        CHECK(review.overall[0].comment == "a branch is missing");
+        CHECK_FALSE(review.overall[0].outdated);
+        CHECK_THROWS_WITH(require_accepted(review, 1),
+                          Contains("the whole model (rejected by A. Kern)"));
+        THEN("the verdicts and marks on edits are what they were") {
+            CHECK(statuses(session) == kAllAccepted);
+            CHECK(review.edits.at(1).pins.size() == 1);
+        }
+        THEN("it is outdated once an edit is another one") {
+            session.change_edit(2, {{"at", kTop}, {"reach", 4.0}, {"height", 0.75}});
+            CHECK(review_of(session).overall.at(0).outdated);
+            CHECK(status_of_whole(review_of(session)) == ReviewStatus::Outdated);
+        }
+        THEN("a later verdict of the same reviewer replaces it") {
+            enter_overall(session, kern, seen, Verdict::Accept, "");
+            CHECK(status_of_whole(review_of(session)) == ReviewStatus::Accepted);
+        }
+    }
+    WHEN("the model was changed since it was seen, it is outdated at once") {
+        session.change_edit(2, {{"at", kTop}, {"reach", 4.0}, {"height", 0.75}});
+        enter_overall(session, kern, seen, Verdict::Accept, "");
+        CHECK(review_of(session).overall.at(0).outdated);
+    }
+    THEN("a rejection without a reason is refused") {
+        CHECK_THROWS_AS(enter_overall(session, kern, seen, Verdict::Reject, ""), InvalidInput);
+        CHECK(review_of(session).overall.empty());
+    }
+}
+
+SCENARIO("A draft becomes a verdict with the marks that were given before", "[review]") {
+    const std::string project = reviewed_project();
+    Session session = Session::open(project, options());
+    const auto edit = [&] { return review_of(session).edits.at(1); };
+    VerdictDraft draft{.comment = "too high",
+                       .pins = {{.place = Vec3(1, 2, 3), .text = "here"}},
+                       .distances = {distance_between(Vec3(0, 0, 0), Vec3(3, 4, 0))}};
+    CHECK(draft.distances[0].length == 5.0);
+    enter_verdict(session, {"A. Kern", ""}, verdict_of(draft, Verdict::Reject, edit(), "A. Kern"));
+    CHECK(edit().pins.size() == 1);
+    REQUIRE(edit().distances.size() == 1);
+    CHECK(edit().distances[0].reviewer == "A. Kern");
+    CHECK(edit().distances[0].distance.length == 5.0);
+    WHEN("the same reviewer gives another verdict") {
+        draft = {.pins = {{.place = Vec3(4, 5, 6), .text = "and here"}}};
+        enter_verdict(session, {"A. Kern", ""},
+                      verdict_of(draft, Verdict::Accept, edit(), "A. Kern"));
+        REQUIRE(edit().pins.size() == 2);
+        CHECK(edit().pins[0].pin.text == "here");
+        CHECK(edit().pins[1].pin.text == "and here");
+        CHECK(edit().distances.size() == 1);
+    }
+    THEN("another reviewer's verdict has none of them") {
+        CHECK(verdict_of({}, Verdict::Accept, edit(), "B. Roth").pins.empty());
+    }
+    THEN("those on an earlier result stay with it") {
+        session.change_edit(2, {{"at", kTop}, {"reach", 4.0}, {"height", 0.75}});
+        CHECK(edit().distances.at(0).outdated);
+        const EditVerdict next = verdict_of({}, Verdict::Accept, edit(), "A. Kern");
+        CHECK(next.pins.empty());
+        CHECK(next.distances.empty());
+    }
+}
+
+SCENARIO("Only a rejection needs words", "[review]") {
+    CHECK(why_incomplete({}, Verdict::Reject) == "a rejection needs a reason");
+    CHECK(why_incomplete({.comment = "  "}, Verdict::Reject) == "a rejection needs a reason");
+    CHECK(why_incomplete({.comment = "too high"}, Verdict::Reject).empty());
+    CHECK(why_incomplete({}, Verdict::Accept).empty());
+    CHECK(why_incomplete({}, Verdict::Unsure).empty());
 }
 
 SCENARIO("A review has the pins of each reviewer's newest verdicts", "[review]") {

@@ -153,6 +153,14 @@ public:
         shell.settle(10s);
     }
 
+    /// Clicks on a point of the model.
+    void click_at(const Vec3& point) {
+        const ScreenRect view = shell.app().ui().items().at("view.area").rect;
+        if (const auto at = on_screen(shell.app().camera(), view).place(point))
+            shell.click(static_cast<float>(at->x()), static_cast<float>(at->y()));
+        shell.settle(10s);
+    }
+
     /// The place of the model nearest to the eye at a share of its height.
     Vec3 front_at(double share) {
         const Surface& surface = *shell.app().place().document.current()->surface;
@@ -375,6 +383,20 @@ void places(Photographer& p) {
     p.click("operation.back");
 }
 
+/// A pin and two ends of a distance on the edit that is judged.
+void marks(Photographer& p) {
+    p.click("review.place_pin");
+    p.click_at(p.front_at(0.45));
+    p.shell.type("a bump is left");
+    p.click("review.place_distance");
+    for (const double share : {0.6, 0.75}) p.click_at(p.front_at(share));
+    p.shell.type("length of the neck");
+    p.shell.press_key(keys::kEnter);
+    p.shell.press_key(keys::kEscape);
+    p.click("review.draft.pin.0.look");
+    p.wait();
+}
+
 void review(Photographer& p) {
     p.scroll("rail.smoothing", -30);
     p.click("rail.review");
@@ -383,17 +405,37 @@ void review(Photographer& p) {
     p.fill("review.name", "A. Kern");
     p.fill("review.role", "radiologist");
     p.click("review.keep_name");
+    marks(p);
     p.fill("review.comment", "a hole is left");
+    p.rest_mouse();
+    p.take("review-marks");
     p.click("review.reject");
     p.wait();
     p.rest_mouse();
     p.take("review");
+    p.click("review.blink");
+    p.wait();
+    p.shell.press_key(keys::kSpace);
+    p.rest_mouse();
+    p.take("review-blink");
+    p.click("review.blink");
+    p.wait();
     p.click("review.correct");
     p.wait();
     p.rest_mouse();
     p.take("review-correct");
     p.click("operation.back");
     p.wait();
+    p.shell.press_key(keys::kEscape);
+    p.scroll("review.edit.4", -30);
+    p.click("review.whole");
+    p.scroll("review.whole", -30);
+    p.rest_mouse();
+    p.take("review-whole");
+    p.click("review.import");
+    p.rest_mouse();
+    p.take("review-import");
+    p.click("file.cancel");
     p.scroll("rail.review", 30);
 }
 

@@ -111,13 +111,13 @@ SCENARIO("A field keeps the keys until the view takes them", "[window][keys]") {
         CHECK(text() == "7");
     }
     WHEN("Esc is pressed while a distance is measured") {
-        window.place().view.tool = MeasureTool::Distance;
+        window.place().view.tool = ClickTool::Distance;
         shell.press_key(keys::kEscape);
         CHECK(text().empty());
-        CHECK(window.place().view.tool == MeasureTool::Distance);
+        CHECK(window.place().view.tool == ClickTool::Distance);
         THEN("the next one ends the measuring") {
             shell.press_key(keys::kEscape);
-            CHECK(window.place().view.tool == MeasureTool::None);
+            CHECK(window.place().view.tool == ClickTool::None);
         }
     }
 }

@@ -220,7 +220,7 @@ SCENARIO("No click for a measure opens another tool", "[window][measures]") {
         CHECK_FALSE(shell->app().place().get<OpeningsFeature>().role_question());
         CHECK_FALSE(shell->app().place().form());
     }
-    CHECK(shell->app().place().is_measuring());
+    CHECK(shell->app().place().has_click_tool());
 }
 
 SCENARIO("Distances are measured in slices", "[window][measures]") {
@@ -233,7 +233,7 @@ SCENARIO("Distances are measured in slices", "[window][measures]") {
     REQUIRE(shell->run_until([&] { return measures_of(*shell).is_read(); }, 20s));
     if (!shell->has("slice.axial.area")) REQUIRE(shell->click_item("tool.slices"));
     REQUIRE(shell->settle(30s));
-    shell->app().place().view.tool = MeasureTool::Distance;
+    shell->app().place().view.tool = ClickTool::Distance;
     shell->frame();
     REQUIRE(shell->has("slice.axial.area"));
     const Vec3 cross = shell->app().place().slices().cross();

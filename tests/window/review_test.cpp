@@ -1,14 +1,10 @@
 #include <filesystem>
-#include <tuple>
-#include <utility>
 
 #include <catch2/catch.hpp>
 
 #include "geometry/kernel/whole_file.h"
-#include "tests/support/shapes.h"
+#include "tests/window/review_support.h"
 #include "tests/window/window_support.h"
-#include "workbench/operations/table.h"
-#include "workbench/project/project.h"
 #include "workbench/review/review_page_bytes.h"
 #include "workbench/window/features/review/review_feature.h"
 #include "workbench/window/features/review/review_words.h"
@@ -19,91 +15,6 @@ using namespace std::chrono_literals;
 using Catch::Matchers::Contains;
 
 namespace {
-
-ReviewFeature& feature_of(OffscreenShell& shell) {
-    return shell.app().place().get<ReviewFeature>();
-}
-
-/// A tube that was loaded as edit 1 and smoothed by edit 2, in the review step.
-std::unique_ptr<OffscreenShell> reviewed_tube() {
-    auto shell = test_shell();
-    if (!shell) return nullptr;
-    open_and_wait(*shell, tube_file());
-    shell->app().place().document.apply("smooth", {{"iterations", Value(std::int64_t{2})}},
-                                        find_operation("smooth").usual_step);
-    REQUIRE(wait_until_idle(*shell));
-    REQUIRE(shell->click_item("rail.review"));
-    REQUIRE(shell->settle(60s));
-    REQUIRE(feature_of(*shell).review());
-    return shell;
-}
-
-/// Edit 3, which shrinks the tube.
-void smooth_strongly(OffscreenShell& shell) {
-    shell.app().place().document.apply(
-        "smooth",
-        {{"filter", Value(std::string("laplace"))}, {"iterations", Value(std::int64_t{200})}},
-        Step::Smoothing);
-    REQUIRE(wait_until_idle(shell));
-    REQUIRE(shell.settle(60s));
-}
-
-ReviewStatus status_of_edit(OffscreenShell& shell, EditId id) {
-    for (const ReviewedEdit& edit : feature_of(shell).review()->edits)
-        if (edit.edit.id == id) return edit.status;
-    FAIL("the model has no such edit");
-    return ReviewStatus::Open;
-}
-
-void say_who(OffscreenShell& shell) {
-    REQUIRE(shell.fill_item("review.name", "A. Kern"));
-    REQUIRE(shell.fill_item("review.role", "radiologist"));
-    REQUIRE(shell.click_item("review.keep_name"));
-}
-
-void click_and_wait(OffscreenShell& shell, const std::string& item) {
-    REQUIRE(shell.click_item(item));
-    REQUIRE(wait_until_idle(shell));
-    REQUIRE(shell.settle(60s));
-}
-
-void answer_and_wait(OffscreenShell& shell, const std::filesystem::path& file) {
-    shell.app().place().answer(file);
-    REQUIRE(wait_until_idle(shell));
-    REQUIRE(shell.settle(60s));
-}
-
-/// What the page would save of the shown review, with a pin on edit 2.
-VerdictFile file_of_roth(OffscreenShell& shell) {
-    VerdictFile file{.program = "page",
-                     .reviewer = "B. Roth",
-                     .role = "surgeon",
-                     .written = "2030-01-01T00:00:00Z"};
-    const auto origin =
-        shell.app().place().document.runner()->submit([](Session& session, const Progress&) {
-            return std::pair(session.project().id(), session.project().record_head());
-        });
-    std::tie(file.project, file.chain_head) = origin.result();
-    file.project_name = "tube";
-    for (const ReviewedEdit& edit : feature_of(shell).review()->edits)
-        file.edits.push_back({.edit = edit.edit, .hash = edit.hash, .verdict = Verdict::Accept});
-    file.edits[1].verdict = Verdict::Reject;
-    file.edits[1].comment = "too smooth";
-    file.edits[1].pins = {{.place = Vec3(4, 0, 5), .text = "here it shrinks"}};
-    return file;
-}
-
-std::filesystem::path beside_project(OffscreenShell& shell, const std::string& name) {
-    return shell.app().place().document.project().parent_path() / name;
-}
-
-void import_roth(OffscreenShell& shell) {
-    const auto file = beside_project(shell, "verdicts.json");
-    write_file(file, text_of(file_of_roth(shell)));
-    REQUIRE(shell.click_item("review.import"));
-    REQUIRE(shell.app().place().question() == FileQuestion::Verdicts);
-    answer_and_wait(shell, file);
-}
 
 const Message& last_message(OffscreenShell& shell) {
     return shell.app().place().document.messages().back();
@@ -117,7 +28,7 @@ SCENARIO("Edits are judged in the review step", "[window][review]") {
     CHECK(review_words(*feature_of(*shell).review()) == "not reviewed");
     CHECK(status_of_edit(*shell, 2) == ReviewStatus::Open);
     CHECK_FALSE(shell->has("review.accept"));
-    REQUIRE(shell->click_item("review.edit.2"));
+    REQUIRE(click_in_panel(*shell, "review.edit.2"));
     CHECK_FALSE(shell->has("review.accept"));  // nobody knows who reviews
     say_who(*shell);
     WHEN("one is accepted") {
@@ -147,10 +58,10 @@ SCENARIO("Edits are judged in the review step", "[window][review]") {
     }
     WHEN("one is rejected") {
         THEN("that needs a reason") {
-            CHECK_FALSE(shell->click_item("review.reject"));
+            CHECK_FALSE(click_in_panel(*shell, "review.reject"));
             feature_of(*shell).give(Verdict::Reject);
             REQUIRE(shell->fill_item("review.comment", "  "));
-            CHECK_FALSE(shell->click_item("review.reject"));
+            CHECK_FALSE(click_in_panel(*shell, "review.reject"));
             CHECK(feature_of(*shell).why_not(Verdict::Reject) == "a rejection needs a reason");
             CHECK(status_of_edit(*shell, 2) == ReviewStatus::Open);
         }
@@ -158,9 +69,9 @@ SCENARIO("Edits are judged in the review step", "[window][review]") {
             REQUIRE(shell->fill_item("review.comment", "too smooth"));
             click_and_wait(*shell, "review.reject");
             CHECK(status_of_edit(*shell, 2) == ReviewStatus::Rejected);
-            CHECK(feature_of(*shell).comment.empty());
+            CHECK(feature_of(*shell).draft().comment.empty());
             CHECK(remark_of(*feature_of(*shell).chosen()) == "A. Kern: too smooth");
-            REQUIRE(shell->click_item("review.correct"));
+            REQUIRE(click_in_panel(*shell, "review.correct"));
             REQUIRE(shell->app().place().form());
             CHECK(shell->app().place().form()->edit() == EditId{2});
             CHECK(shell->has("banner.review.action"));
@@ -176,7 +87,7 @@ SCENARIO("Edits are judged in the review step", "[window][review]") {
         THEN("leaving its form answers nothing") {
             REQUIRE(shell->fill_item("review.comment", "too smooth"));
             click_and_wait(*shell, "review.reject");
-            REQUIRE(shell->click_item("review.correct"));
+            REQUIRE(click_in_panel(*shell, "review.correct"));
             REQUIRE(shell->click_item("banner.review.action"));
             CHECK(shell->app().place().step() == Step::Review);
             shell->app().place().document.change(2, {{"iterations", Value(std::int64_t{3})}});
@@ -192,9 +103,9 @@ SCENARIO("Edits are judged in the review step", "[window][review]") {
     }
     WHEN("another person reviews") {
         click_and_wait(*shell, "review.accept");
-        REQUIRE(shell->click_item("review.who"));
+        REQUIRE(click_in_panel(*shell, "review.who"));
         REQUIRE(shell->fill_item("review.name", "B. Roth"));
-        REQUIRE(shell->click_item("review.keep_name"));
+        REQUIRE(click_in_panel(*shell, "review.keep_name"));
         REQUIRE(shell->fill_item("review.comment", "too smooth"));
         click_and_wait(*shell, "review.reject");
         THEN("they may disagree") {
@@ -215,7 +126,7 @@ SCENARIO("The review step names what to look at first", "[window][review]") {
     REQUIRE_FALSE(feature_of(*shell).queue()->empty());
     const QueueItem first = feature_of(*shell).queue()->front();
     CHECK(first.edit == 3);
-    REQUIRE(shell->click_item("review.queue.0"));
+    REQUIRE(click_in_panel(*shell, "review.queue.0"));
     CHECK(feature_of(*shell).chosen()->edit.id == 3);
     CHECK(shell->app().place().looked_at() == first.place);
     THEN("it is looked for again once an edit has changed") {
@@ -236,13 +147,13 @@ SCENARIO("Verdicts are imported in the review step", "[window][review]") {
     CHECK(status_of_edit(*shell, 2) == ReviewStatus::Rejected);
     THEN("their pins are in the view, and are looked at from the list") {
         CHECK(shell->has("view.pin.2.0"));
-        REQUIRE(shell->click_item("review.edit.2"));
-        REQUIRE(shell->click_item("review.pin.0"));
+        REQUIRE(click_in_panel(*shell, "review.edit.2"));
+        REQUIRE(click_in_panel(*shell, "review.pin.0"));
         CHECK(shell->app().place().looked_at() == Vec3(4, 0, 5));
     }
     THEN("pins are seen while the edit is corrected, and in no other step") {
-        REQUIRE(shell->click_item("review.edit.2"));
-        REQUIRE(shell->click_item("review.correct"));
+        REQUIRE(click_in_panel(*shell, "review.edit.2"));
+        REQUIRE(click_in_panel(*shell, "review.correct"));
         REQUIRE(shell->settle(60s));
         CHECK(shell->has("view.pin.2.0"));
         REQUIRE(shell->click_item("rail.smoothing"));
@@ -264,10 +175,56 @@ SCENARIO("Verdicts are imported in the review step", "[window][review]") {
     }
 }
 
+SCENARIO("Several files of verdicts are imported at once", "[window][review]") {
+    const auto shell = reviewed_tube();
+    if (!shell) return;
+    const VerdictFile roth = file_of_roth(*shell);
+    VerdictFile weiss = roth;
+    weiss.reviewer = "C. Weiss";
+    write_file(beside_project(*shell, "a.json"), text_of(roth));
+    write_file(beside_project(*shell, "b.json"), std::string("{}"));
+    write_file(beside_project(*shell, "c.json"), text_of(weiss));
+    REQUIRE(click_in_panel(*shell, "review.import"));
+    REQUIRE(shell->settle(60s));
+    const auto add = [&](const std::string& file) {
+        REQUIRE(shell->has("file.entry." + file));
+        const ScreenRect rect = shell->app().ui().items().at("file.entry." + file).rect;
+        shell->drag(rect.middle_x(), rect.middle_y(), rect.middle_x(), rect.middle_y(),
+                    MouseButton::Left, {.control = true});
+    };
+    WHEN("they are chosen with Ctrl") {
+        for (const char* file : {"a.json", "b.json", "c.json"}) add(file);
+        click_and_wait(*shell, "file.accept");
+        THEN("each is entered by itself, and what is refused is named") {
+            CHECK(feature_of(*shell).review()->files == 2);
+            CHECK(feature_of(*shell).review()->edits[0].verdicts.size() == 2);
+            std::vector<std::string> said;
+            for (const Message& message : shell->app().place().document.messages())
+                said.push_back(message.text);
+            CHECK_THAT(said.at(said.size() - 3), Contains("a.json: 2 verdicts of B. Roth"));
+            CHECK_THAT(said.at(said.size() - 2), Contains("b.json"));
+            CHECK_THAT(said.back(), Contains("c.json: 2 verdicts of C. Weiss"));
+            CHECK_THAT(shell->app().place().document.failure().value().text, Contains("b.json"));
+        }
+    }
+    WHEN("one is taken back with Ctrl, it is not entered") {
+        for (const char* file : {"a.json", "c.json", "a.json"}) add(file);
+        click_and_wait(*shell, "file.accept");
+        CHECK(feature_of(*shell).review()->files == 1);
+        CHECK_THAT(last_message(*shell).text, Contains("C. Weiss"));
+    }
+    WHEN("another one is clicked without Ctrl, it alone is entered") {
+        add("a.json");
+        REQUIRE(shell->click_item("file.entry.c.json"));
+        click_and_wait(*shell, "file.accept");
+        CHECK(feature_of(*shell).review()->files == 1);
+    }
+}
+
 SCENARIO("The review page is written from the review step", "[window][review]") {
     const auto shell = reviewed_tube();
     if (!shell) return;
-    REQUIRE(shell->click_item("review.page"));
+    REQUIRE(click_in_panel(*shell, "review.page"));
     CHECK(shell->app().place().question() == FileQuestion::ReviewPage);
     const auto file = beside_project(*shell, "page.html");
     answer_and_wait(*shell, file);
@@ -284,6 +241,9 @@ SCENARIO("What reviewers wrote is shown in one short line", "[window][review]") 
     CHECK(pin_words(pin).size() < 150);
     CHECK(pin_words({.reviewer = "A. Kern", .pin = {}, .outdated = true}) ==
           "A. Kern: pin (outdated)");
+    CHECK(distance_words({.reviewer = "A. Kern",
+                          .distance = {.to = Vec3(3, 4, 0), .length = 99, .text = "the neck"}}) ==
+          "A. Kern: 5.00 mm, the neck");
     CHECK(verdict_words({.reviewer = "A. Kern\x1b", .time = "soon", .verdict = Verdict::Unsure}) ==
           "A. Kern\\x1b: unsure, soon");
     CHECK(remark_of(ReviewedEdit{}).empty());

@@ -367,12 +367,12 @@ SCENARIO("Two clicks measure a distance", "[window][view]") {
     seen.click({0, -4, 20});
     CHECK(seen.pixels() != plain);
     CHECK(seen.shell->app().camera() == before);
-    CHECK(seen.place().view.tool == MeasureTool::Distance);
+    CHECK(seen.place().view.tool == ClickTool::Distance);
     REQUIRE(seen.shell->click_item("measure.clear"));
     seen.shell->frame();
     CHECK(seen.pixels() == plain);
     seen.shell->press_key(keys::kEscape);
-    CHECK(seen.place().view.tool == MeasureTool::None);
+    CHECK(seen.place().view.tool == ClickTool::None);
 }
 
 SCENARIO("A click measures a vessel's diameter", "[window][view]") {

@@ -73,18 +73,28 @@ void add_verdicts(const std::vector<EnteredVerdicts>& files, ReviewedEdit& edit)
     edit.status = status_of(edit.verdicts);
 }
 
-void add_pins(const std::vector<EnteredVerdicts>& files, ReviewedEdit& edit) {
+/// True of an edit that is listed only because its reviewer saw it, for a verdict on the whole.
+bool says_nothing(const EditVerdict& verdict) {
+    return verdict.verdict == Verdict::None && verdict.comment.empty() && verdict.pins.empty() &&
+           verdict.distances.empty();
+}
+
+void add_marks(const std::vector<EnteredVerdicts>& files, ReviewedEdit& edit) {
     std::map<std::string, const EditVerdict*> newest;
     for (const auto& [file, signature] : files)
         for (const EditVerdict& verdict : file.edits) {
-            if (verdict.edit.id != edit.edit.id) continue;
+            if (verdict.edit.id != edit.edit.id || says_nothing(verdict)) continue;
             const EditVerdict*& found = newest[file.reviewer];
             if (found == nullptr || found->time <= verdict.time) found = &verdict;
         }
-    for (const auto& [reviewer, verdict] : newest)
+    for (const auto& [reviewer, verdict] : newest) {
+        const bool outdated = verdict->hash != edit.hash;
         for (const Pin& pin : verdict->pins)
-            edit.pins.push_back(
-                {.reviewer = reviewer, .pin = pin, .outdated = verdict->hash != edit.hash});
+            edit.pins.push_back({.reviewer = reviewer, .pin = pin, .outdated = outdated});
+        for (const ReviewedDistance& distance : verdict->distances)
+            edit.distances.push_back(
+                {.reviewer = reviewer, .distance = distance, .outdated = outdated});
+    }
 }
 
 std::set<std::string> accepting(const Review& review) {
@@ -175,7 +185,7 @@ Review review_of(const ProjectFile& project, const std::vector<LogEntry>& log,
                                                    .operation = entry.edit.operation,
                                                    .hash = edit_hash(project, entry)});
         add_verdicts(files, edit);
-        add_pins(files, edit);
+        add_marks(files, edit);
     }
     ByReviewer overall;
     for (const auto& [file, signature] : files)
@@ -201,6 +211,10 @@ ReviewStatus status_of(const Review& review) {
     for (const ReviewStatus status : {Rejected, Disputed, Outdated, Open})
         if (found.contains(status)) return status;
     return Accepted;
+}
+
+ReviewStatus status_of_whole(const Review& review) {
+    return status_of(review.overall);
 }
 
 std::string review_words(const Review& review) {

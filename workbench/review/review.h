@@ -41,6 +41,13 @@ struct GivenPin {
     bool outdated = false;  ///< the edit, or its result, is another one now
 };
 
+/// A distance of a reviewer's newest verdicts that name the edit.
+struct GivenDistance {
+    std::string reviewer;
+    ReviewedDistance distance;
+    bool outdated = false;  ///< the edit, or its result, is another one now
+};
+
 /// An edit of the current state with its verdicts.
 struct ReviewedEdit {
     EditRef edit;
@@ -48,8 +55,9 @@ struct ReviewedEdit {
     std::string operation;
     std::string hash;
     ReviewStatus status = ReviewStatus::Open;
-    std::vector<GivenVerdict> verdicts;  ///< by reviewer, ascending
-    std::vector<GivenPin> pins;          ///< by reviewer, also of those who have not decided
+    std::vector<GivenVerdict> verdicts;    ///< by reviewer, ascending
+    std::vector<GivenPin> pins;            ///< by reviewer, also of those who have not decided
+    std::vector<GivenDistance> distances;  ///< likewise
 };
 
 /// The reviews of the current state.
@@ -73,6 +81,9 @@ struct Review {
 /// Of all its edits and of the verdicts on the whole: rejected before disputed, outdated, open,
 /// accepted.
 [[nodiscard]] ReviewStatus status_of(const Review& review);
+
+/// Of the verdicts on the whole model alone.
+[[nodiscard]] ReviewStatus status_of_whole(const Review& review);
 
 /// One line: "accepted by A. Kern, B. Roth"; "open: 2 of 5 edits are accepted".
 [[nodiscard]] std::string review_words(const Review& review);

@@ -101,6 +101,21 @@ ImportedVerdicts enter(Session& session, StoredVerdicts given, const Signature& 
     return done;
 }
 
+/// \param said verdicts, to which time, reviewer and origin are added
+ImportedVerdicts enter_now(Session& session, const Reviewer& reviewer, VerdictFile said) {
+    const ProjectFile& project = session.project();
+    said.program = version();
+    said.project = project.id();
+    said.project_name = project.name();
+    said.chain_head = project.record_head();
+    said.reviewer = reviewer.name;
+    said.role = reviewer.role;
+    said.written = utc_now();
+    for (EditVerdict& verdict : said.edits) verdict.time = said.written;
+    const std::string name = "the verdict";
+    return enter(session, {text_of(said), ""}, {}, name);
+}
+
 }  // namespace
 
 std::string imported_words(const ImportedVerdicts& imported) {
@@ -124,19 +139,15 @@ ImportedVerdicts import_verdicts(Session& session, const std::filesystem::path& 
 }
 
 ImportedVerdicts enter_verdict(Session& session, const Reviewer& reviewer, EditVerdict verdict) {
-    const ProjectFile& project = session.project();
-    const std::string now = utc_now();
-    verdict.time = now;
-    const VerdictFile file{.program = version(),
-                           .project = project.id(),
-                           .project_name = project.name(),
-                           .chain_head = project.record_head(),
-                           .reviewer = reviewer.name,
-                           .role = reviewer.role,
-                           .written = now,
-                           .edits = {std::move(verdict)}};
-    const std::string name = "the verdict";
-    return enter(session, {text_of(file), ""}, {}, name);
+    return enter_now(session, reviewer, {.edits = {std::move(verdict)}});
+}
+
+ImportedVerdicts enter_overall(Session& session, const Reviewer& reviewer, const Review& seen,
+                               Verdict verdict, const std::string& comment) {
+    VerdictFile said{.overall = verdict, .overall_comment = comment};
+    for (const ReviewedEdit& edit : seen.edits)
+        said.edits.push_back({.edit = edit.edit, .hash = edit.hash});
+    return enter_now(session, reviewer, std::move(said));
 }
 
 }  // namespace vesselbench

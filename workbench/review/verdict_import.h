@@ -5,6 +5,7 @@
 #include <string>
 
 #include "geometry/kernel/progress.h"
+#include "workbench/review/review.h"
 #include "workbench/review/signature.h"
 #include "workbench/review/verdicts.h"
 #include "workbench/session/session.h"
@@ -42,5 +43,10 @@ struct Reviewer {
 /// \param verdict its hash is that of the edit the reviewer saw
 /// \throw as import_verdicts(): a rejection without a reason, a reviewer without a name
 ImportedVerdicts enter_verdict(Session& session, const Reviewer& reviewer, EditVerdict verdict);
+
+/// The same of the whole model.
+/// \param seen its edits as the reviewer saw them: the verdict holds while they are the same
+ImportedVerdicts enter_overall(Session& session, const Reviewer& reviewer, const Review& seen,
+                               Verdict verdict, const std::string& comment);
 
 }  // namespace vesselbench

@@ -177,8 +177,12 @@ void Core::ask(FileQuestion question, const std::string& parameter) {
     asked_parameter_ = parameter;
 }
 
-void Core::answer(const std::filesystem::path& file) {
+void Core::answer(const std::vector<std::filesystem::path>& files) {
     const FileQuestion question = std::exchange(question_, FileQuestion::None);
+    for (const std::filesystem::path& file : files) answer(question, file);
+}
+
+void Core::answer(FileQuestion question, const std::filesystem::path& file) {
     switch (question) {
         case FileQuestion::Open:
             return open(file);

@@ -101,9 +101,9 @@ public:
 
     [[nodiscard]] bool searches_places() const { return search_.pending(); }
 
-    /// True if clicks on the model and in slices measure, and are for nothing else.
-    [[nodiscard]] bool is_measuring() const {
-        return view.tool != MeasureTool::None && armed().empty();
+    /// True if clicks on the model and in slices are for a tool, and for nothing else.
+    [[nodiscard]] bool has_click_tool() const {
+        return view.tool != ClickTool::None && armed().empty();
     }
 
     // --- questions for a file
@@ -113,7 +113,11 @@ public:
     [[nodiscard]] const std::string& asked_parameter() const { return asked_parameter_; }
 
     void ask(FileQuestion question, const std::string& parameter = {});
-    void answer(const std::filesystem::path& file);
+
+    /// The file that was asked for; several where takes_several() allows them: each by itself.
+    void answer(const std::vector<std::filesystem::path>& files);
+
+    void answer(const std::filesystem::path& file) { answer(std::vector{file}); }
 
 private:
     void for_listeners(const Listen& call) override;
@@ -124,6 +128,7 @@ private:
 
     void take_case();
     void renew_lists();
+    void answer(FileQuestion question, const std::filesystem::path& file);
     void save_recipe(const std::filesystem::path& file);
     [[nodiscard]] bool update_places();
     void search_places(const Scene* scene, bool tips);

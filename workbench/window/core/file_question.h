@@ -16,4 +16,9 @@ enum class FileQuestion {
     Verdicts  ///< to be read
 };
 
+/// True if several files may be chosen at once.
+[[nodiscard]] constexpr bool takes_several(FileQuestion question) {
+    return question == FileQuestion::Verdicts;
+}
+
 }  // namespace vesselbench

@@ -101,6 +101,19 @@ void draw_mark(const Ui& ui, const ViewPixel& at, MarkLook look, const std::stri
     draw_plate(ui, {fits ? middle.x + gap : middle.x - gap - wide, middle.y}, label);
 }
 
+void draw_mark_line(const Ui& ui, const PixelView& screen, std::span<const Vec3> points,
+                    bool closed) {
+    std::vector<ImVec2> line;
+    for (const Vec3& point : points)
+        if (const auto at = screen.place(point)) line.push_back(corner_of(*at));
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const float thick = std::max(1.5F, ui.em / 8);
+    const auto count = static_cast<int>(line.size());
+    const ImDrawFlags flags = closed ? ImDrawFlags_Closed : ImDrawFlags_None;
+    draw.AddPolyline(line.data(), count, paint(0x101418, 160), flags, 2 * thick);
+    draw.AddPolyline(line.data(), count, paint(0xFFFFFF), flags, thick);
+}
+
 void draw_handle_mark(Ui& ui, const Handle& handle, const ViewPixel& at, bool lit) {
     const float radius = ui.em * (lit ? 0.48F : 0.38F);
     const ImVec2 middle = corner_of(at);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,11 @@ enum class MarkLook {
 
 /// A disc, with a label beside it unless that is empty, drawn into ImGui's current window.
 void draw_mark(const Ui& ui, const ViewPixel& at, MarkLook look, const std::string& label);
+
+/// A line through the points that are before the eye, drawn into ImGui's current window.
+/// \param closed back to its first point
+void draw_mark_line(const Ui& ui, const PixelView& screen, std::span<const Vec3> points,
+                    bool closed);
 
 inline constexpr float kClickReach = 0.3F;    ///< the mouse may move so far in a click [em]
 inline constexpr double kHandleReach = 0.85;  ///< a cursor so near to a handle is over it [em]

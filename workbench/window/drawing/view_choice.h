@@ -42,8 +42,22 @@ struct ClipChoice {
 /// \param view direction from the eye
 [[nodiscard]] bool hides_section(ClipAxis axis, const Vec3& view);
 
-/// What clicks in the view measure.
-enum class MeasureTool { None, Distance, Diameter };
+/// What clicks on the model and in slices are for, unless a parameter of the form takes them.
+enum class ClickTool {
+    None,
+    Distance,       ///< measures, kept with the project
+    Diameter,       ///< likewise
+    ReviewPin,      ///< a mark of a reviewer's verdict
+    ReviewDistance  ///< likewise
+};
+
+[[nodiscard]] constexpr bool is_measuring(ClickTool tool) {
+    return tool == ClickTool::Distance || tool == ClickTool::Diameter;
+}
+
+[[nodiscard]] constexpr bool is_reviewing(ClickTool tool) {
+    return tool == ClickTool::ReviewPin || tool == ClickTool::ReviewDistance;
+}
 
 /// What the drawn colours show.
 struct DrawnQuantity {
@@ -62,7 +76,7 @@ struct ViewChoice {
     bool transparent = false;
     ClipChoice clip;
     bool flies = false;  ///< through the lumen
-    MeasureTool tool = MeasureTool::None;
+    ClickTool tool = ClickTool::None;
 
     /// With the automatic range.
     void choose(ColouringKind kind);

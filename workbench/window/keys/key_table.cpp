@@ -202,6 +202,31 @@ std::vector<KeyRow> slice_rows() {
             {group, "show all of a slice", "", window, {{FrameSlice, keys::kHome}}}};
 }
 
+/// The letters of the review page; with Shift those that the view has taken.
+std::vector<KeyRow> review_rows() {
+    const auto letter = keys::letter;
+    const KeyGroup group = KeyGroup::Review;
+    const KeyReach window = KeyReach::Window;
+    return {
+        {group,
+         "next, previous edit",
+         "",
+         window,
+         {{NextEdit, letter('J')}, {PreviousEdit, letter('K')}}},
+        {group,
+         "accept, reject, unsure",
+         "",
+         window,
+         {{AcceptEdit, letter('A'), kShift}, {RejectEdit, letter('R')}, {UnsureEdit, letter('U')}}},
+        {group, "comment", "", window, {{CommentEdit, letter('C'), kShift}}},
+        {group,
+         "place pins, distances",
+         "",
+         window,
+         {{PlacePin, letter('P')}, {PlaceDistance, letter('D'), kShift}}},
+        {group, "blink before and after", "", window, {{BlinkEdit, letter('B')}}}};
+}
+
 std::string key_name(int key) {
     switch (key) {
         case keys::kSpace:
@@ -255,7 +280,7 @@ std::span<const KeyRow> key_table() {
     static const std::vector<KeyRow> table = [] {
         std::vector<KeyRow> all;
         for (const auto& rows :
-             {editing_rows(), view_rows(), mode_rows(), brush_rows(), slice_rows()})
+             {editing_rows(), view_rows(), mode_rows(), brush_rows(), slice_rows(), review_rows()})
             all.insert(all.end(), rows.begin(), rows.end());
         return all;
     }();

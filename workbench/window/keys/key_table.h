@@ -64,10 +64,20 @@ enum class KeyCommand {
     SliceRow,
     SlicePlanes,
     FrameSlice,
+    // the step Review
+    NextEdit,
+    PreviousEdit,
+    AcceptEdit,
+    RejectEdit,
+    UnsureEdit,
+    CommentEdit,
+    PlacePin,
+    PlaceDistance,
+    BlinkEdit,
     Count
 };
 
-enum class KeyGroup { Editing, View, Modes, Brushes, Slices };
+enum class KeyGroup { Editing, View, Modes, Brushes, Slices, Review };
 
 enum class Modifiers { None, Control, Shift, ControlShift, Any };
 

@@ -146,6 +146,7 @@ bool FileDialog::writes() const {
 void FileDialog::enter(const fs::path& folder) {
     listing_ = {.folder = folder};
     typed_folder_ = folder.string();
+    others_.clear();
     error_.clear();
     reading_.start([folder, suffixes = suffixes_for(question_)](const Progress& progress) {
         return list_folder(folder, suffixes, progress);
@@ -223,8 +224,26 @@ void FileDialog::choose(PanelContext& c, const FolderEntry& entry, bool twice) {
     if (entry.folder && (!entry.openable_folder || (twice && !answers)))
         return enter(listing_.folder / entry.name);
     if (name_ != entry.name) error_.clear();
+    if (takes_several(question_) && !entry.folder && ImGui::GetIO().KeyCtrl)
+        return add_or_remove(entry.name);
+    others_.clear();
     name_ = entry.name;
     if (twice && answers) finish(c);
+}
+
+/// The name of the field is the one that was added last.
+void FileDialog::add_or_remove(const std::string& name) {
+    if (std::erase(others_, name) > 0) return;
+    const bool removes = name_ == name;
+    if (!removes && !name_.empty()) others_.push_back(name_);
+    name_ = name;
+    if (!removes) return;
+    name_ = others_.empty() ? "" : others_.back();
+    if (!others_.empty()) others_.pop_back();
+}
+
+bool FileDialog::is_chosen(const std::string& name) const {
+    return name == name_ || std::ranges::count(others_, name) > 0;
 }
 
 /// Acts on a click on the last row.
@@ -269,7 +288,7 @@ void FileDialog::draw_entry(PanelContext& c, const FolderEntry& entry) {
                               .icon_colour = entry.folder ? c.ui.theme.accent : 0,
                               .title = entry.name,
                               .right = entry.folder ? "" : size_text(entry.bytes),
-                              .selected = entry.name == name_});
+                              .selected = is_chosen(entry.name)});
     handle_click(c, entry, clicked);
 }
 
@@ -335,14 +354,26 @@ void FileDialog::finish(PanelContext& c) {
         return;
     }
     if (writes() && !may_write(file)) return;
+    std::vector<fs::path> files = {file};
+    for (const std::string& name : others_) files.push_back(listing_.folder / name);
+    std::ranges::sort(files);
     question_ = FileQuestion::None;
-    c.place.answer(file);
+    c.place.answer(files);
+}
+
+std::string FileDialog::accept_label() const {
+    if (question_ == FileQuestion::Export) return "Export";
+    if (writes()) return "Save";
+    return others_.empty() ? "Open" : "Open " + counted(others_.size() + 1, "file");
 }
 
 void FileDialog::draw_name_line(PanelContext& c) {
     const float width = c.ui.em * 8;
     const float field = ImGui::GetContentRegionAvail().x - 2 * (width + c.ui.grid(1));
-    if (text_field(c.ui, "file.name", name_, {.hint = "File name", .width = field})) error_.clear();
+    if (text_field(c.ui, "file.name", name_, {.hint = "File name", .width = field})) {
+        error_.clear();
+        others_.clear();
+    }
     const bool enters =
         c.shown.keys.has(KeyCommand::Accept) && !ImGui::IsAnyItemActive() && !folder_entered_;
     ImGui::SameLine(0, c.ui.grid(1));
@@ -351,8 +382,7 @@ void FileDialog::draw_name_line(PanelContext& c) {
         return c.place.ask(FileQuestion::None);
     }
     ImGui::SameLine(0, c.ui.grid(1));
-    const char* label = question_ == FileQuestion::Export ? "Export" : writes() ? "Save" : "Open";
-    if (button(c.ui, "file.accept", label,
+    if (button(c.ui, "file.accept", accept_label(),
                {.primary = true, .enabled = can_finish(), .width = width}) ||
         enters)
         finish(c);
@@ -373,6 +403,8 @@ void FileDialog::draw(PanelContext& c, const ScreenRect& window) {
                 "Writes the project with its whole history. You go on working in " +
                     c.place.document.project().filename().string() + ".",
                 ui.theme.muted);
+    if (takes_several(question_))
+        wrapped(ui, "Ctrl+click chooses several files; each is entered by itself.", ui.theme.muted);
     space(ui, 1);
     draw_folder_line(c);
     const float line = ImGui::GetFrameHeight();

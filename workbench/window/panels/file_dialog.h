@@ -4,6 +4,7 @@
 #include <functional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "workbench/session/task.h"
 #include "workbench/window/core/panel_context.h"
@@ -39,6 +40,9 @@ private:
     void draw_formats(PanelContext& context);
     void draw_name_line(PanelContext& context);
     void choose(PanelContext& context, const FolderEntry& entry, bool twice);
+    void add_or_remove(const std::string& name);
+    [[nodiscard]] bool is_chosen(const std::string& name) const;
+    [[nodiscard]] std::string accept_label() const;
     void finish(PanelContext& context);
     [[nodiscard]] bool writes() const;
     [[nodiscard]] bool can_finish() const;
@@ -51,6 +55,7 @@ private:
     std::string typed_folder_;
     bool folder_entered_ = false;  ///< by Enter, in this frame
     std::string name_;
+    std::vector<std::string> others_;  ///< names that are chosen besides name_
     std::string error_;
     std::filesystem::path clicked_;   ///< the last entry that was clicked
     std::filesystem::path replaced_;  ///< a file that the user was warned about

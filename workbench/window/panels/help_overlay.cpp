@@ -65,6 +65,8 @@ void draw_help_overlay(PanelContext& c, const ScreenRect& window) {
     draw_keys(ui, "View", KeyGroup::View);
     space(ui, 2);
     draw_keys(ui, "View modes", KeyGroup::Modes);
+    space(ui, 2);
+    draw_keys(ui, "In the step Review", KeyGroup::Review);
     ImGui::EndGroup();
     ImGui::EndChild();
     end_frame();

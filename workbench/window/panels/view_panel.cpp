@@ -113,8 +113,8 @@ bool draw_mode(PanelContext& c, const std::string& name, const std::string& labe
     return switched;
 }
 
-void toggle(MeasureTool& tool, MeasureTool which) {
-    tool = tool == which ? MeasureTool::None : which;
+void toggle(ClickTool& tool, ClickTool which) {
+    tool = tool == which ? ClickTool::None : which;
 }
 
 void switch_clip(PanelContext& c) {
@@ -150,12 +150,12 @@ void draw_modes(PanelContext& c) {
         switch_clip(c);
     if (draw_mode(c, "view.fly", "Inside the vessel", view.flies, KeyCommand::Flight))
         view.flies = !view.flies;
-    if (draw_mode(c, "view.distance", "Distance", view.tool == MeasureTool::Distance,
+    if (draw_mode(c, "view.distance", "Distance", view.tool == ClickTool::Distance,
                   KeyCommand::Distance))
-        toggle(view.tool, MeasureTool::Distance);
-    if (draw_mode(c, "view.diameter", "Diameter", view.tool == MeasureTool::Diameter,
+        toggle(view.tool, ClickTool::Distance);
+    if (draw_mode(c, "view.diameter", "Diameter", view.tool == ClickTool::Diameter,
                   KeyCommand::Diameter))
-        toggle(view.tool, MeasureTool::Diameter);
+        toggle(view.tool, ClickTool::Diameter);
     space(c.ui, 1);
     if (button(c.ui, "view.picture", "Save picture",
                {.icon = icons::kCamera,
@@ -211,15 +211,15 @@ void handle_view_keys(PanelContext& c) {
     ViewChoice& view = c.place.view;
     if (keys.has(KeyCommand::ClipPlane)) switch_clip(c);
     if (keys.has(KeyCommand::Flight)) view.flies = !view.flies;
-    if (keys.has(KeyCommand::Distance)) toggle(view.tool, MeasureTool::Distance);
-    if (keys.has(KeyCommand::Diameter)) toggle(view.tool, MeasureTool::Diameter);
+    if (keys.has(KeyCommand::Distance)) toggle(view.tool, ClickTool::Distance);
+    if (keys.has(KeyCommand::Diameter)) toggle(view.tool, ClickTool::Diameter);
     if (keys.has(KeyCommand::Picture)) c.place.ask(FileQuestion::Picture);
 }
 
 bool leave_view_mode(PanelContext& c) {
     ViewChoice& view = c.place.view;
-    if (view.tool != MeasureTool::None)
-        view.tool = MeasureTool::None;
+    if (view.tool != ClickTool::None)
+        view.tool = ClickTool::None;
     else if (view.flies)
         view.flies = false;
     else if (c.shown.view)

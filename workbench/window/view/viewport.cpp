@@ -25,7 +25,8 @@
 #include "workbench/window/features/openings/role_card.h"
 #include "workbench/window/features/picking/view_places.h"
 #include "workbench/window/features/picture/view_picture.h"
-#include "workbench/window/features/review/review_pins.h"
+#include "workbench/window/features/review/review_clicks.h"
+#include "workbench/window/features/review/review_marks.h"
 #include "workbench/window/features/slices/slice_row.h"
 #include "workbench/window/view/camera_control.h"
 #include "workbench/window/view/edit_marks.h"
@@ -64,6 +65,7 @@ struct Viewport::Impl {
           spots(renderer, wake),
           handles(wake),
           measuring(renderer, wake),
+          reviewing(renderer, wake),
           picture(wake) {}
 
     void rest(PanelContext& c);
@@ -110,6 +112,7 @@ struct Viewport::Impl {
     EndMarkers ends;
     DriveControl drive;
     MeasuringTool measuring;
+    ReviewClicks reviewing;
     ClippedCount clipped;
     ViewPicture picture;
     SliceRow slice_row;
@@ -124,7 +127,7 @@ bool Viewport::pending() const {
     const Impl& view = *impl_;
     return view.scene.pending() || view.camera.pending() || view.brush.pending() ||
            view.places.pending() || view.spots.pending() || view.handles.pending() ||
-           view.measuring.pending() || view.picture.pending();
+           view.measuring.pending() || view.reviewing.pending() || view.picture.pending();
 }
 
 const ViewCamera& Viewport::camera() const {
@@ -150,6 +153,7 @@ void Viewport::Impl::rest(PanelContext& c) {
     ends.forget();
     drive.forget();
     measuring.forget();
+    reviewing.forget();
     slice_row = {};
     clipped = {};
     picture.collect(c.place.document);
@@ -214,7 +218,7 @@ bool Viewport::Impl::handle_gallery(PanelContext& c) {
     const bool over = cell && ImGui::IsItemHovered();
     if (over && gallery.magnifies()) gallery.zoom(ImGui::GetIO().MouseWheel);
     const bool taken =
-        over && !c.place.is_measuring() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
+        over && !c.place.has_click_tool() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
     if (taken) c.place.get<GalleryFeature>().take(*cell);
     return pressed_spot || taken || (over && gallery.magnifies() && !ImGui::IsItemActive());
 }
@@ -225,7 +229,7 @@ void Viewport::Impl::handle_mouse(PanelContext& c) {
     if (!ImGui::IsItemHovered()) return;
     camera.handle_wheel(screen(), mouse_on_model(), c.place.view.clip);
     const bool busy = c.place.get<BrushFeature>().can_paint() ||
-                      c.place.view.tool != MeasureTool::None || camera.is_inside() ||
+                      c.place.view.tool != ClickTool::None || camera.is_inside() ||
                       places.took_click() || handles.has_cursor() || ends.has_cursor();
     if (busy || !scene.is_drawn() || !double_clicked()) return;
     look();
@@ -261,6 +265,7 @@ void Viewport::Impl::pick_places(PanelContext& c, const ViewMouse& mouse) {
     places.update(c, seen);
     spots.update(c, seen);
     measuring.update(c, seen);
+    reviewing.update(c, seen);
 }
 
 // --- drawing
@@ -279,12 +284,13 @@ void Viewport::Impl::draw_controls(PanelContext& c, const ScreenRect& area) {
     scene.clip().draw_strip(c, strips);
     camera.draw_strip(c, strips);
     measuring.draw_strip(c, strips);
+    reviewing.draw_strip(c, strips);
 }
 
 void Viewport::Impl::draw_model_marks(PanelContext& c, const PixelView& screen, bool over_view) {
     draw_measures(c, screen);
-    draw_review_pins(c, screen);
-    draw_edit_marks(c, screen, over_view && !c.place.form() && !c.place.is_measuring());
+    draw_review_marks(c, screen);
+    draw_edit_marks(c, screen, over_view && !c.place.form() && !c.place.has_click_tool());
 }
 
 void Viewport::Impl::draw_overlays(PanelContext& c, bool over_view) {

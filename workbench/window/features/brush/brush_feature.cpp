@@ -10,7 +10,7 @@ bool BrushFeature::has_brush() const {
 
 bool BrushFeature::can_paint() const {
     return has_brush() && core_.armed().empty() && !core_.form()->edit() && core_.form()->valid() &&
-           core_.view.tool == MeasureTool::None && core_.document.can_paint();
+           core_.view.tool == ClickTool::None && core_.document.can_paint();
 }
 
 bool BrushFeature::is_painting() const {

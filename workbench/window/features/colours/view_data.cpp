@@ -11,7 +11,7 @@ bool has_values(ColouringKind kind) {
 }
 
 bool wants_lines(const ViewChoice& view, const ShownLayers& layers) {
-    return layers.centerlines || view.flies || view.tool == MeasureTool::Diameter;
+    return layers.centerlines || view.flies || view.tool == ClickTool::Diameter;
 }
 
 }  // namespace

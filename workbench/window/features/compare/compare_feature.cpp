@@ -4,11 +4,15 @@
 
 namespace vesselbench {
 
-void CompareFeature::compare(StateId reference) {
+void CompareFeature::compare(const Reference& reference) {
+    compare(reference, comparison_ ? comparison_->mode() : mode_);
+}
+
+void CompareFeature::compare(const Reference& reference, CompareMode mode) {
     const bool again = comparison_ && comparison_->reference() == reference;
     stop();
     core_.claim_view(*this);
-    if (!again && core_.document.is_open()) comparison_.emplace(reference, mode_, core_.wake());
+    if (!again && core_.document.is_open()) comparison_.emplace(reference, mode, core_.wake());
 }
 
 void CompareFeature::stop() {

@@ -15,9 +15,12 @@ public:
     /// None while nothing is compared.
     [[nodiscard]] std::optional<Comparison>& comparison() { return comparison_; }
 
-    /// Compares a state with the shown one, in the mode of the last time; the same state again ends
+    /// Compares a reference with the shown scene, in the mode of the last time; the same again ends
     /// it.
-    void compare(StateId reference);
+    void compare(const Reference& reference);
+
+    /// The same in a mode.
+    void compare(const Reference& reference, CompareMode mode);
 
     void stop();
 

@@ -46,8 +46,10 @@ void Comparison::read(Document& document) {
     difference_.reset();
     measured_scenes_ = -1;
     reading_ = document.runner()->submit(
-        [state = reference_, variant = variant_](Session& session, const Progress& progress) {
-            return session.known_scene(state, variant, progress);
+        [reference = reference_, variant = variant_](Session& session, const Progress& progress) {
+            if (const auto* start = std::get_if<EditStart>(&reference))
+                return session.result_scene(start->result, progress);
+            return session.known_scene(std::get<StateId>(reference), variant, progress);
         },
         "reference");
 }

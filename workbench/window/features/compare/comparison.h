@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 
 #include "geometry/kernel/deviation_map.h"
 #include "workbench/session/task.h"
@@ -18,21 +19,32 @@ enum class CompareMode {
     Deviation  ///< the shown surface, coloured by its distance from the reference
 };
 
+/// The model that an edit of the current state runs on.
+struct EditStart {
+    EditId edit = 0;
+    ResultId result = 0;  ///< that is known of it
+
+    bool operator==(const EditStart&) const = default;
+};
+
+/// What is compared with the shown scene: a state of the history, or the model before an edit.
+using Reference = std::variant<StateId, EditStart>;
+
 /// What lies between the reference and the shown scene.
 struct SceneDifference {
     SurfaceChange change;
     std::shared_ptr<const DeviationMap> map;  ///< of the shown surface; null if one has none
 };
 
-/// Compares a state of the history, the reference, with whatever the window shows: the current
-/// state or a preview. The session's runner reads the reference; the difference is measured on
-/// another thread, so that no request waits for it. Used by the frame's thread.
+/// Compares a reference with whatever the window shows: the current state, a preview, or the model
+/// that stands before an edit. The session's runner reads the reference; the difference is measured
+/// on another thread, so that no request waits for it. Used by the frame's thread.
 class Comparison {
 public:
     static constexpr double kBlinkTime = 0.8;  ///< for which each of the two is shown [s]
 
     /// \param wake called by another thread when update() has something to do
-    explicit Comparison(StateId reference, CompareMode mode = CompareMode::SideBySide,
+    explicit Comparison(const Reference& reference, CompareMode mode = CompareMode::SideBySide,
                         std::function<void()> wake = {})
         : reference_(reference), mode_(mode), measuring_(std::move(wake)) {}
 
@@ -46,7 +58,7 @@ public:
     /// \return true if something has changed
     bool update(Document& document);
 
-    [[nodiscard]] StateId reference() const { return reference_; }
+    [[nodiscard]] const Reference& reference() const { return reference_; }
 
     [[nodiscard]] CompareMode mode() const { return mode_; }
 
@@ -89,7 +101,7 @@ private:
     bool take_scene();
     bool take_difference();
 
-    StateId reference_ = 0;
+    Reference reference_;
     CompareMode mode_;
     std::string variant_;
     std::optional<Scene> scene_;

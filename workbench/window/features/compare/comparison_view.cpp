@@ -25,6 +25,13 @@ std::string title_of(const Core& core, StateId state) {
     return "";
 }
 
+/// "edit 3, Smooth"
+std::string edit_title(const Core& core, EditId edit) {
+    const LogEntry* entry = find_entry(*core.document.snapshot(), edit);
+    return "edit " + std::to_string(edit) +
+           (entry == nullptr ? "" : ", " + readable(entry->edit.operation));
+}
+
 std::string shown_title(const Core& core) {
     const Document& document = core.document;
     if (document.previewed()) return "preview of " + document.previewed()->edit().operation;
@@ -32,9 +39,8 @@ std::string shown_title(const Core& core) {
 }
 
 /// A text on a plate, centred at the lower end of a part of the view.
-void draw_label(const Ui& ui, const ScreenRect& part, const std::string& kind,
-                const std::string& title) {
-    const std::string words = fitted(kind + ": " + title, part.width - ui.em * 14);
+void draw_label(const Ui& ui, const ScreenRect& part, const std::string& title) {
+    const std::string words = fitted(title, part.width - ui.em * 14);
     const ImVec2 size = ImGui::CalcTextSize(words.c_str());
     const ImVec2 from{part.middle_x() - size.x / 2 - ui.grid(1),
                       part.y + part.height - size.y - ui.grid(3)};
@@ -60,7 +66,7 @@ void ComparisonView::forget() {
     if (!mode_) return;
     mode_.reset();
     model_.show(nullptr);
-    reference_ = -1;
+    reference_.reset();
     hides_model_ = false;
     difference_.reset();
     ++version_;
@@ -76,8 +82,13 @@ void ComparisonView::take(PanelContext& c, Comparison& comparison) {
         model_.show(comparison.scene());
     }
     difference_ = comparison.difference() ? comparison.difference()->map : nullptr;
-    reference_title_ = title_of(c.core, reference_);
-    shown_title_ = shown_title(c.core);
+    if (const auto* start = std::get_if<EditStart>(&*reference_)) {
+        reference_title_ = "Before " + edit_title(c.core, start->edit);
+        shown_title_ = "After " + edit_title(c.core, start->edit);
+    } else {
+        reference_title_ = "Reference: " + title_of(c.core, std::get<StateId>(*reference_));
+        shown_title_ = "Shown: " + shown_title(c.core);
+    }
     if (model_.update() || !same) ++version_;
 }
 
@@ -109,11 +120,10 @@ void ComparisonView::draw_labels(const Ui& ui, const ScreenRect& view) const {
         const float half = half_of(view);
         ImGui::GetWindowDrawList()->AddLine({view.x + half, view.y},
                                             {view.x + half, view.y + view.height}, ui.theme.border);
-        draw_label(ui, {view.x, view.y, half, view.height}, "Reference", reference_title_);
-        draw_label(ui, room_for_model(view), "Shown", shown_title_);
+        draw_label(ui, {view.x, view.y, half, view.height}, reference_title_);
+        draw_label(ui, room_for_model(view), shown_title_);
     } else if (mode_ == CompareMode::Blink) {
-        draw_label(ui, view, hides_model_ ? "Reference" : "Shown",
-                   hides_model_ ? reference_title_ : shown_title_);
+        draw_label(ui, view, hides_model_ ? reference_title_ : shown_title_);
     }
 }
 

@@ -61,11 +61,11 @@ private:
 
     ModelDrawing model_;
     std::optional<CompareMode> mode_;  ///< none: nothing is compared
-    StateId reference_ = -1;
+    std::optional<Reference> reference_;
     int seen_scenes_ = -1;
     bool hides_model_ = false;
     std::shared_ptr<const DeviationMap> difference_;
-    std::string reference_title_, shown_title_;
+    std::string reference_title_, shown_title_;  ///< "Reference: Smooth"
     int version_ = 0;
 };
 

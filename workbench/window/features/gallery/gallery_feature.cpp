@@ -13,7 +13,7 @@ void GalleryFeature::show(GalleryMode mode) {
     core_.view.flies = false;
     if (mode != GalleryMode::Models) return;
     core_.disarm();
-    core_.view.tool = MeasureTool::None;
+    core_.view.tool = ClickTool::None;
     core_.document.drop_preview();
 }
 

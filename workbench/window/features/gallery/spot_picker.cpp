@@ -40,7 +40,7 @@ void SpotPicker::update(PanelContext& c, const SeenModel& seen) {
     if (gallery.mode() != GalleryMode::Spots) return forget();
     take(gallery, seen);
     if (seen.clicked && seen.surface != nullptr && c.core.armed().empty() &&
-        !c.core.is_measuring()) {
+        !c.core.has_click_tool()) {
         const auto mark = nearest_mark(seen.screen, places_of(gallery.spots), mouse_pixel(),
                                        kMarkReach * c.ui.em);
         if (gallery.picks()) {

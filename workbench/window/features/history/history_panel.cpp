@@ -167,7 +167,7 @@ void draw_tools(PanelContext& c, const HistoryRow& state, ImVec2 at) {
         c.shown.note = NoteInProgress{state.edit, readable(state.title), state.note};
     if (state.current) return;
     const auto& comparison = c.core.get<CompareFeature>().comparison();
-    const bool compared = comparison && comparison->reference() == state.state;
+    const bool compared = comparison && comparison->reference() == Reference(state.state);
     ImGui::SetCursorScreenPos({at.x + ImGui::GetFrameHeight(), at.y});
     if (quiet_icon(c, "history.compare." + id, icons::kCompare,
                    compared ? "End the comparison" : "Compare this state with the shown one",

@@ -15,7 +15,7 @@ LiveSmoothing::Followed LiveFeature::followed() const {
 bool LiveFeature::can_drive() const {
     const OperationForm* form = core_.open_form();
     return form != nullptr && form->valid() && core_.armed().empty() && live_.can_follow() &&
-           core_.document.can(RequestKind::Preview) && core_.view.tool == MeasureTool::None &&
+           core_.document.can(RequestKind::Preview) && core_.view.tool == ClickTool::None &&
            !core_.get<CompareFeature>().comparison();
 }
 

@@ -6,8 +6,6 @@
 #include <span>
 #include <vector>
 
-#include <imgui.h>
-
 #include "geometry/kernel/wording.h"
 #include "workbench/report/measure_table.h"
 #include "workbench/window/core/core.h"
@@ -19,27 +17,9 @@ namespace vesselbench {
 
 namespace {
 
-/// The points that are before the eye, as a line of the window.
-std::vector<ImVec2> line_of(const PixelView& screen, std::span<const Vec3> points) {
-    std::vector<ImVec2> line;
-    for (const Vec3& point : points)
-        if (const auto at = screen.place(point))
-            line.emplace_back(static_cast<float>(at->x()), static_cast<float>(at->y()));
-    return line;
-}
-
-void draw_line(const Ui& ui, const std::vector<ImVec2>& line, bool closed) {
-    ImDrawList& draw = *ImGui::GetWindowDrawList();
-    const float thick = std::max(1.5F, ui.em / 8);
-    const auto count = static_cast<int>(line.size());
-    const ImDrawFlags flags = closed ? ImDrawFlags_Closed : ImDrawFlags_None;
-    draw.AddPolyline(line.data(), count, paint(0x101418, 160), flags, 2 * thick);
-    draw.AddPolyline(line.data(), count, paint(0xFFFFFF), flags, thick);
-}
-
 void draw_distance(const Ui& ui, const PixelView& screen, const KeptMeasure& measure) {
     const std::vector<Vec3>& points = measure.points;
-    draw_line(ui, line_of(screen, points), false);
+    draw_mark_line(ui, screen, points, false);
     for (std::size_t i = 0; i < points.size(); ++i) {
         const auto at = screen.place(points[i]);
         if (!at) continue;
@@ -50,7 +30,7 @@ void draw_distance(const Ui& ui, const PixelView& screen, const KeptMeasure& mea
 }
 
 void draw_diameter(const Ui& ui, const PixelView& screen, const KeptMeasure& measure) {
-    draw_line(ui, line_of(screen, std::span(measure.points).subspan(1)), true);
+    draw_mark_line(ui, screen, std::span(measure.points).subspan(1), true);
     if (const auto at = screen.place(measure.points.front()))
         draw_mark(ui, *at, MarkLook::Picked, measure.name + ": " + measure_text(measure));
 }
@@ -69,7 +49,7 @@ void draw_one(PanelContext& c, const PixelView& screen, std::size_t i) {
 void draw_those(PanelContext& c, const PixelView& screen,
                 const std::function<bool(const Vec3&)>& shown) {
     const MeasureList& measures = c.core.get<MeasuresFeature>().measures();
-    if (c.core.view.tool == MeasureTool::None && c.shown.bottom != BottomTab::Measures) return;
+    if (!is_measuring(c.core.view.tool) && c.shown.bottom != BottomTab::Measures) return;
     for (std::size_t i = 0; i < measures.all().size(); ++i)
         if (std::ranges::all_of(measures.all()[i].points, shown)) draw_one(c, screen, i);
     if (!measures.first_point() || !shown(*measures.first_point())) return;

@@ -33,7 +33,7 @@ private:
     Core& core_;
     MeasureList measures_;
     /// The tool and the document's scene changes that the next click measures with.
-    std::pair<MeasureTool, int> measured_with_;
+    std::pair<ClickTool, int> measured_with_;
 };
 
 }  // namespace vesselbench

@@ -8,7 +8,6 @@
 #include "workbench/report/measure_table.h"
 #include "workbench/window/core/core.h"
 #include "workbench/window/core/shown.h"
-#include "workbench/window/drawing/model_drawing.h"
 #include "workbench/window/features/colours/colours_feature.h"
 #include "workbench/window/features/measures/measures_feature.h"
 #include "workbench/window/style/icons.h"
@@ -29,12 +28,11 @@ VesselDiameter diameter_or_throw(const Surface& surface, const CenterlineGraph& 
 }  // namespace
 
 MeasuringTool::MeasuringTool(Renderer& renderer, std::function<void()> wake)
-    : picker_(renderer), wake_(wake), search_(std::move(wake)) {}
+    : clicks_(renderer, wake), search_(std::move(wake)) {}
 
 void MeasuringTool::forget() {
-    clicks_.clear();
+    clicks_.forget();
     places_.clear();
-    picker_.forget();
     search_.forget();
 }
 
@@ -47,31 +45,17 @@ void MeasuringTool::update(PanelContext& c, const SeenModel& seen) {
         if (const auto found = search_.take())
             c.core.get<MeasuresFeature>().measures().add(
                 *found, c.core.get<MeasuresFeature>().measured_model(MeasuredOn::Surface));
-    if (const auto picked = picker_.result()) take(c, *picked);
-    if (c.core.is_measuring() && seen.surface != nullptr && seen.clicked) add_click(seen);
-    search_click();
+    const bool takes = c.core.has_click_tool() && is_measuring(tool_);
+    if (takes && seen.surface != nullptr && seen.clicked) clicks_.add(seen);
+    if (const auto place = clicks_.update()) take(c, *place);
     search_diameter(c);
-    if (picker_.pending() && wake_) wake_();
 }
 
-void MeasuringTool::add_click(const SeenModel& seen) {
-    clicks_.push_back({seen.view, seen.layers, seen.screen.device_pixel(mouse_pixel())});
-}
-
-/// One after the other: a request would forget the one before.
-void MeasuringTool::search_click() {
-    if (clicks_.empty() || picker_.pending()) return;
-    const Click& click = clicks_.front();
-    picker_.request(click.view, click.layers, click.pixel.x(), click.pixel.y());
-    clicks_.pop_front();
-}
-
-void MeasuringTool::take(PanelContext& c, const Picked& picked) {
-    if (picked.layer != kModelLayer) return;
-    if (tool_ == MeasureTool::Distance)
+void MeasuringTool::take(PanelContext& c, const Vec3& place) {
+    if (tool_ == ClickTool::Distance)
         c.core.get<MeasuresFeature>().measures().click(
-            picked.point, c.core.get<MeasuresFeature>().measured_model(MeasuredOn::Surface));
-    if (tool_ == MeasureTool::Diameter) places_.push_back(picked.point);
+            place, c.core.get<MeasuresFeature>().measured_model(MeasuredOn::Surface));
+    if (tool_ == ClickTool::Diameter) places_.push_back(place);
 }
 
 /// Those clicked before the centerlines are known wait for them.
@@ -90,7 +74,7 @@ void MeasuringTool::search_diameter(const PanelContext& c) {
 
 std::string MeasuringTool::words(const PanelContext& c) const {
     const ViewData& data = c.core.get<ColoursFeature>().view_data();
-    if (tool_ == MeasureTool::Diameter) {
+    if (tool_ == ClickTool::Diameter) {
         if (data.finds_centerlines()) return "Finding the centerlines";
         if (!data.centerlines_problem().empty()) return data.centerlines_problem();
         if (!search_.problem().empty()) return search_.problem();
@@ -103,7 +87,7 @@ std::string MeasuringTool::words(const PanelContext& c) const {
 }
 
 void MeasuringTool::draw_strip(PanelContext& c, ViewStrips& strips) {
-    if (tool_ == MeasureTool::None) return;
+    if (!is_measuring(tool_)) return;
     const Ui& ui = c.ui;
     const float side = ImGui::GetFrameHeight(), gap = ui.grid(0.75F);
     const float wide = strips.begin(ui, "measure", ui.em * 22);
@@ -122,7 +106,7 @@ void MeasuringTool::draw_strip(PanelContext& c, ViewStrips& strips) {
         measures.take_back();
     ViewStrips::next(ui);
     if (icon_button(c.ui, "measure.close", icons::kClose, "Stop measuring  Esc"))
-        c.core.view.tool = MeasureTool::None;
+        c.core.view.tool = ClickTool::None;
 }
 
 }  // namespace vesselbench

@@ -35,7 +35,7 @@ bool is_active(const PanelContext& c) {
     const auto& form = c.core.form();
     return form && has_field(*form, Meaning::Planes) &&
            !c.core.get<OpeningsFeature>().openings().rows().empty() && c.core.armed().empty() &&
-           c.core.view.tool == MeasureTool::None;
+           c.core.view.tool == ClickTool::None;
 }
 
 /// Of all ends, in the order of their rows: those in doubt choose their place first.

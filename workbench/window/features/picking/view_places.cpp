@@ -104,7 +104,7 @@ void ViewPlaces::light_opening(const PanelContext& c, const SeenModel& seen) {
 
 void ViewPlaces::update(PanelContext& c, const SeenModel& seen) {
     if (const auto picked = picker_.result()) answer_ = Answer{asked_, *picked};
-    if (c.core.is_measuring()) {
+    if (c.core.has_click_tool()) {
         c.core.get<OpeningsFeature>().forget_role_question();
         return forget();
     }

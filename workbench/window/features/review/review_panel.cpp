@@ -7,7 +7,10 @@
 #include "workbench/window/case/readable.h"
 #include "workbench/window/core/core.h"
 #include "workbench/window/features/review/review_feature.h"
+#include "workbench/window/features/review/review_judging.h"
+#include "workbench/window/features/review/review_layout.h"
 #include "workbench/window/features/review/review_words.h"
+#include "workbench/window/keys/key_table.h"
 #include "workbench/window/style/icons.h"
 #include "workbench/window/widgets/controls.h"
 #include "workbench/window/widgets/row.h"
@@ -38,50 +41,36 @@ StatusLook look_of(const Theme& theme, ReviewStatus status) {
     return {icons::kPending, theme.muted};
 }
 
-/// A text at the panel's indent.
-void line(PanelContext& c, const std::string& words, Paint colour) {
-    ImGui::SetCursorPosX(c.ui.grid(2));
-    wrapped(c.ui, words, colour);
-}
-
-/// [pixels] of controls in a row of so many.
-float width_of(const PanelContext& c, int count) {
-    const float gaps = c.ui.grid(1) * static_cast<float>(count - 1);
-    return (ImGui::GetContentRegionAvail().x - c.ui.grid(2) - gaps) / static_cast<float>(count);
-}
-
 void draw_state(PanelContext& c, const Review& review) {
     const StatusLook look = look_of(c.ui.theme, status_of(review));
-    line(c, readable_sentence(review_words(review)), look.colour);
-    for (const GivenVerdict& given : review.overall)
-        line(c, "The whole, " + verdict_words(given), c.ui.theme.muted);
+    review_line(c, readable_sentence(review_words(review)), look.colour);
 }
 
 void draw_files(PanelContext& c) {
     const Document& document = c.core.document;
-    ImGui::SetCursorPosX(c.ui.grid(2));
+    float width = begin_review_controls(c, 1);
     if (button(c.ui, "review.page", "Write review page",
                {.icon = icons::kExport,
                 .enabled = document.can(RequestKind::Output),
-                .width = width_of(c, 1),
+                .width = width,
                 .help = "Write one file that reviewers open in a browser"}))
         c.core.ask(FileQuestion::ReviewPage);
-    ImGui::SetCursorPosX(c.ui.grid(2));
+    width = begin_review_controls(c, 1);
     if (button(c.ui, "review.import", "Import verdicts",
                {.icon = icons::kOpen,
                 .enabled = document.can(RequestKind::History),
-                .width = width_of(c, 1),
-                .help = "Enter verdicts that a reviewer saved from the page"}))
+                .width = width,
+                .help = "Enter verdicts that reviewers saved from the page, one file or several"}))
         c.core.ask(FileQuestion::Verdicts);
 }
 
 void draw_queue(PanelContext& c, ReviewFeature& feature) {
     if (!feature.queue()) {
-        ImGui::SetCursorPosX(c.ui.grid(2));
+        const float width = begin_review_controls(c, 1);
         if (button(c.ui, "review.find", "What to look at first",
                    {.icon = icons::kTarget,
                     .enabled = c.core.document.can(RequestKind::Output),
-                    .width = width_of(c, 1),
+                    .width = width,
                     .help = "Large changes, warnings, decisions in doubt; reads all models"}))
             feature.find_queue();
         return;
@@ -99,78 +88,70 @@ void draw_queue(PanelContext& c, ReviewFeature& feature) {
     }
 }
 
-void draw_verdicts(PanelContext& c, const ReviewedEdit& edit) {
-    for (const GivenVerdict& given : edit.verdicts) {
-        line(c, verdict_words(given), c.ui.theme.text);
-        if (!given.comment.empty()) line(c, printable(given.comment), c.ui.theme.muted);
+void draw_verdicts(PanelContext& c, const std::vector<GivenVerdict>& verdicts) {
+    for (const GivenVerdict& given : verdicts) {
+        review_line(c, verdict_words(given), c.ui.theme.text);
+        if (!given.comment.empty()) review_line(c, printable(given.comment), c.ui.theme.muted);
     }
+}
+
+void draw_mark_row(PanelContext& c, const std::string& name, const char* icon,
+                   const std::string& words, const Vec3& place) {
+    if (row(c.ui, name,
+            {.icon = icon, .title = words, .help = "Show the place in the view and in the slices"}))
+        c.core.look_at(place);
+}
+
+void draw_given_marks(PanelContext& c, const ReviewedEdit& edit) {
     for (std::size_t i = 0; i < edit.pins.size(); ++i)
-        if (row(c.ui, "review.pin." + std::to_string(i),
-                {.icon = icons::kTarget,
-                 .title = pin_words(edit.pins[i]),
-                 .help = "Show the place in the view and in the slices"}))
-            c.core.look_at(edit.pins[i].pin.place);
+        draw_mark_row(c, "review.pin." + std::to_string(i), icons::kTarget, pin_words(edit.pins[i]),
+                      edit.pins[i].pin.place);
+    for (std::size_t i = 0; i < edit.distances.size(); ++i) {
+        const ReviewedDistance& distance = edit.distances[i].distance;
+        draw_mark_row(c, "review.distance." + std::to_string(i), icons::kRuler,
+                      distance_words(edit.distances[i]), (distance.from + distance.to) / 2);
+    }
 }
 
-void draw_who(PanelContext& c, ReviewFeature& feature) {
-    line(c, "Who reviews? Your name is kept with each verdict, and asked for once.",
-         c.ui.theme.muted);
-    ImGui::SetCursorPosX(c.ui.grid(2));
-    const float width = width_of(c, 1);
-    static_cast<void>(
-        text_field(c.ui, "review.name", feature.who.name, {.hint = "your name", .width = width}));
-    ImGui::SetCursorPosX(c.ui.grid(2));
-    static_cast<void>(text_field(c.ui, "review.role", feature.who.role,
-                                 {.hint = "your role, such as radiologist", .width = width}));
-    ImGui::SetCursorPosX(c.ui.grid(2));
-    if (button(c.ui, "review.keep_name", "Review as this person",
-               {.primary = true, .enabled = !feature.who.name.empty(), .width = width}))
-        feature.keep_who();
-}
-
-void draw_verdict_button(PanelContext& c, ReviewFeature& feature, Verdict verdict,
-                         const std::string& label, float width) {
-    const std::string reason = feature.why_not(verdict);
-    if (button(c.ui, "review." + to_string(verdict), label,
-               {.enabled = reason.empty(),
+/// What an edit's models and parameters are looked at with.
+void draw_looking(PanelContext& c, ReviewFeature& feature, const ReviewedEdit& edit) {
+    const bool rejected = is_rejected(edit), blinks = feature.blink().edit().has_value();
+    const std::string reason = blinks ? "" : feature.blink().why_not(edit.edit.id);
+    float width = begin_review_controls(c, 1);
+    if (button(c.ui, "review.blink", blinks ? "End blinking" : "Blink before and after",
+               {.icon = icons::kCompare,
+                .enabled = reason.empty(),
                 .width = width,
-                .help = reason.empty() ? "" : "Not now: " + reason}))
-        feature.give(verdict);
-}
-
-void draw_judging(PanelContext& c, ReviewFeature& feature) {
-    ImGui::SetCursorPosX(c.ui.grid(2));
-    static_cast<void>(
-        text_field(c.ui, "review.comment", feature.comment,
-                   {.hint = "comment; to reject: the reason", .width = width_of(c, 1)}));
-    ImGui::SetCursorPosX(c.ui.grid(2));
-    const float width = width_of(c, 3);
-    draw_verdict_button(c, feature, Verdict::Accept, "Accept", width);
-    ImGui::SameLine(0, c.ui.grid(1));
-    draw_verdict_button(c, feature, Verdict::Reject, "Reject", width);
-    ImGui::SameLine(0, c.ui.grid(1));
-    draw_verdict_button(c, feature, Verdict::Unsure, "Unsure", width);
-    ImGui::SetCursorPosX(c.ui.grid(2));
-    if (button(c.ui, "review.who", "as " + printable(shortened(c.core.settings.reviewer, 40)),
-               {.quiet = true, .help = "Review as another person"}))
-        feature.ask_who();
+                .help = reason.empty() ? "The models before and after this edit in turn  " +
+                                             keys_of(KeyCommand::BlinkEdit)
+                                       : "Not now: " + reason}))
+        feature.switch_blink();
+    width = begin_review_controls(c, 1);
+    if (button(c.ui, "review.correct", rejected ? "Correct this edit" : "Show its parameters",
+               {.icon = icons::kEdit, .primary = rejected, .width = width}))
+        feature.correct();
 }
 
 /// Below the row of the chosen edit.
 void draw_chosen(PanelContext& c, ReviewFeature& feature, const ReviewedEdit& edit) {
-    draw_verdicts(c, edit);
+    draw_verdicts(c, edit.verdicts);
+    draw_given_marks(c, edit);
     space(c.ui, 0.5F);
-    if (feature.asks_who())
-        draw_who(c, feature);
-    else
-        draw_judging(c, feature);
+    draw_judging(c, feature);
     space(c.ui, 0.5F);
-    ImGui::SetCursorPosX(c.ui.grid(2));
-    const bool rejected = is_rejected(edit);
-    if (button(c.ui, "review.correct", rejected ? "Correct this edit" : "Show its parameters",
-               {.icon = icons::kEdit, .primary = rejected, .width = width_of(c, 1)}))
-        feature.correct();
+    draw_looking(c, feature, edit);
     space(c.ui, 1);
+}
+
+/// "J, K": of the next edit and the previous one.
+std::string step_keys() {
+    return keys_of(KeyCommand::NextEdit) + ", " + keys_of(KeyCommand::PreviousEdit);
+}
+
+/// What an edit's row says while another one is chosen.
+std::string detail_of(const ReviewFeature& feature, EditId edit,
+                      const std::vector<GivenVerdict>& verdicts) {
+    return feature.has_draft(edit) ? "Your draft is not entered yet" : remark_of(verdicts);
 }
 
 void draw_edit(PanelContext& c, ReviewFeature& feature, const ReviewedEdit& edit) {
@@ -182,10 +163,10 @@ void draw_edit(PanelContext& c, ReviewFeature& feature, const ReviewedEdit& edit
             {.icon = look.icon,
              .icon_colour = look.colour,
              .title = readable(edit.operation),
-             .detail = is_chosen ? "" : remark_of(edit),
+             .detail = is_chosen ? "" : detail_of(feature, id, edit.verdicts),
              .right = to_string(edit.status),
              .selected = is_chosen || c.core.pointed_edit() == id,
-             .help = "Show its place, its verdicts, and judge it"}))
+             .help = "Show its place, its verdicts, and judge it  " + step_keys()}))
         return feature.choose(id);
     if (ImGui::IsItemHovered()) c.core.point_at_edit(id);
     if (!is_chosen) return;
@@ -206,6 +187,30 @@ void draw_edits(PanelContext& c, ReviewFeature& feature, const Review& review) {
     }
 }
 
+/// Behind all edits: the verdict on what they make together.
+void draw_whole(PanelContext& c, ReviewFeature& feature, const Review& review) {
+    const ReviewStatus status = status_of_whole(review);
+    const StatusLook look = look_of(c.ui.theme, status);
+    const bool is_chosen = feature.judges_whole();
+    space(c.ui, 1);
+    ImGui::SetCursorPosX(c.ui.grid(2));
+    group_heading(c.ui, "Together");
+    if (row(c.ui, "review.whole",
+            {.icon = look.icon,
+             .icon_colour = look.colour,
+             .title = "The whole model",
+             .detail = is_chosen ? "" : detail_of(feature, kWholeModel, review.overall),
+             .right = to_string(status),
+             .selected = is_chosen,
+             .help = "Show the verdicts on the model as a whole, and judge it  " + step_keys()}))
+        return feature.choose(kWholeModel);
+    if (!is_chosen) return;
+    if (feature.take_reveals()) ImGui::SetScrollHereY(0.5F);
+    draw_verdicts(c, review.overall);
+    space(c.ui, 0.5F);
+    draw_judging(c, feature);
+}
+
 }  // namespace
 
 void draw_review_panel(PanelContext& c) {
@@ -213,12 +218,13 @@ void draw_review_panel(PanelContext& c) {
     ReviewFeature& feature = c.core.get<ReviewFeature>();
     const std::shared_ptr<const Review> review = feature.review();
     if (review) draw_state(c, *review);
-    if (!feature.problem().empty()) line(c, feature.problem(), c.ui.theme.danger);
+    if (!feature.problem().empty()) review_line(c, feature.problem(), c.ui.theme.danger);
     space(c.ui, 1);
     draw_files(c);
     if (!review) return;
     draw_queue(c, feature);
     draw_edits(c, feature, *review);
+    draw_whole(c, feature, *review);
 }
 
 }  // namespace vesselbench

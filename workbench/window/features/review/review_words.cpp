@@ -1,6 +1,7 @@
 #include "workbench/window/features/review/review_words.h"
 
 #include "geometry/kernel/printable.h"
+#include "geometry/kernel/wording.h"
 #include "workbench/window/case/local_time.h"
 
 namespace vesselbench {
@@ -25,6 +26,17 @@ std::string pin_words(const GivenPin& pin) {
            (pin.outdated ? " (outdated)" : "");
 }
 
+std::string length_words(const ReviewedDistance& distance) {
+    return formatted((distance.to - distance.from).norm(), "%.2f mm");
+}
+
+std::string distance_words(const GivenDistance& given) {
+    const std::string& text = given.distance.text;
+    return line_of(given.reviewer, length_words(given.distance) + (text.empty() ? "" : ", " + text),
+                   kLongestPin) +
+           (given.outdated ? " (outdated)" : "");
+}
+
 std::string verdict_words(const GivenVerdict& given) {
     std::string words = printable(given.reviewer);
     if (!given.role.empty()) words += ", " + printable(given.role);
@@ -32,10 +44,14 @@ std::string verdict_words(const GivenVerdict& given) {
     return words + ", " + local_time(given.time, "%Y-%m-%d %H:%M");
 }
 
-std::string remark_of(const ReviewedEdit& edit) {
-    for (const GivenVerdict& given : edit.verdicts)
+std::string remark_of(const std::vector<GivenVerdict>& verdicts) {
+    for (const GivenVerdict& given : verdicts)
         if (given.verdict == Verdict::Reject && !given.outdated) return remark_of(given);
-    return edit.verdicts.empty() ? "" : remark_of(edit.verdicts.front());
+    return verdicts.empty() ? "" : remark_of(verdicts.front());
+}
+
+std::string remark_of(const ReviewedEdit& edit) {
+    return remark_of(edit.verdicts);
 }
 
 bool is_rejected(const ReviewedEdit& edit) {

@@ -12,6 +12,7 @@
 #include "workbench/window/drawing/view_overlays.h"
 #include "workbench/window/features/measures/measure_drawing.h"
 #include "workbench/window/features/measures/measures_feature.h"
+#include "workbench/window/features/review/review_marks.h"
 #include "workbench/window/features/slices/slices_feature.h"
 #include "workbench/window/form/picked_text.h"
 #include "workbench/window/style/icons.h"
@@ -76,7 +77,7 @@ MeasuredOn measured_on(SlicePlane plane) {
 /// A click does not move the cross: it is for the armed parameter, or measures a distance.
 bool takes_clicks(const Core& place) {
     return place.armed_target() ||
-           (place.is_measuring() && place.view.tool == MeasureTool::Distance);
+           (place.has_click_tool() && place.view.tool == ClickTool::Distance);
 }
 
 /// A line with a gap in its middle.
@@ -162,7 +163,7 @@ void SlicePane::handle_click(PanelContext& c) {
     if (!takes_clicks(c.core) || !pointed_ || !still || io.KeyShift ||
         !c.core.get<SlicesFeature>().slices().value_at(*pointed_))
         return;
-    if (c.core.is_measuring())
+    if (c.core.has_click_tool())
         return c.core.get<MeasuresFeature>().measures().click(
             *pointed_, c.core.get<MeasuresFeature>().measured_model(measured_on(plane_)));
     const auto target = c.core.armed_target();
@@ -328,6 +329,11 @@ void SlicePane::draw(PanelContext& c, const PaneSource& source, const ScreenRect
     draw_measures_in_slice(c, screen(), normal,
                            c.core.get<SlicesFeature>().slices().position(plane_),
                            kNearSlice * grid_.step[normal]);
+    draw_review_marks_in_slice(c, screen(),
+                               {.item = key,
+                                .axis = normal,
+                                .position = c.core.get<SlicesFeature>().slices().position(plane_),
+                                .away = 0.5 * grid_.step[normal]});
     crop_.draw(c, screen());
     draw_switch(c);
     draw_slider(c, {rect.x, rect.y + rect_.height, rect.width, slider});
