@@ -12,6 +12,7 @@
 #include "workbench/case/diagnostic_words.h"
 #include "workbench/case/json_text.h"
 #include "workbench/case/purposes.h"
+#include "workbench/colours/shown_measure.h"
 #include "workbench/commands/commands.h"
 #include "workbench/commands/console.h"
 #include "workbench/export/products.h"
@@ -65,6 +66,32 @@ std::size_t required_reviewers(const std::string& text) {
         throw UsageError("--require '" + text +
                          "': give accepted, or accepted=N for N reviewers (at least 1)");
     return count;
+}
+
+/// \throw UsageError unless the file's format takes what is asked for
+void check_shown(const ExportArguments& arguments) {
+    if (!arguments.colour.empty()) check_takes_colour(arguments.file);
+    if (arguments.images != "off") check_takes_page(arguments.file, "--images");
+    if (!arguments.title.empty()) check_takes_page(arguments.file, "--title");
+    if (!arguments.text.empty()) check_takes_page(arguments.file, "--text");
+    require_utf8(arguments.title, "--title");
+    require_utf8(arguments.text, "--text");
+}
+
+/// What the file shows besides the scene.
+ViewerContents shown_contents(const ExportArguments& arguments, const Session& session,
+                              const std::string& variant, const Scene& scene,
+                              const Progress& progress) {
+    ViewerContents shown{
+        .title = arguments.title.empty() ? session.project().name() : arguments.title,
+        .text = arguments.text,
+        .purpose = model_title(variant),
+        .colour = {},
+        .slices = arguments.images == "slices"};
+    if (!arguments.colour.empty()) shown.colour = shown_measure(scene, arguments.colour, progress);
+    if (shown.slices && !scene.image)
+        throw InvalidInput("--images slices: the project has no image");
+    return shown;
 }
 
 /// \throw UsageError unless the name is UTF-8
@@ -122,6 +149,7 @@ void make_project(const NewArguments& arguments, const Progress& progress) {
 void export_project(const ExportArguments& arguments, const Progress& progress) {
     check_export_name(arguments.file);
     check_export_place(arguments.file);
+    check_shown(arguments);
     const std::size_t reviewers =
         arguments.required.empty() ? 0 : required_reviewers(arguments.required);
     Session session = Session::open(arguments.project, {.find = find_operation});
@@ -134,7 +162,7 @@ void export_project(const ExportArguments& arguments, const Progress& progress) 
     refuse_source(session, arguments.file);
     const std::string variant =
         variant_of(arguments.project, arguments.variant, *session.snapshot()->history);
-    const Scene scene = session.scene(variant, progress.part(0.0, 0.7));
+    const Scene scene = session.scene(variant, progress.part(0.0, 0.6));
     const Review review = review_of(session, variant);
     if (reviewers > 0) require_accepted(review, reviewers);
     for (const LogEntry& entry : session.log(variant))
@@ -142,8 +170,11 @@ void export_project(const ExportArguments& arguments, const Progress& progress) 
             remark("warning: edit " + std::to_string(entry.edit.edit.id) + " " +
                    printable(entry.edit.operation) +
                    " no longer applies and is not in the model: " + entry.reason);
+    const ExportOptions options{
+        .flow = flow.parameters(),
+        .shown = shown_contents(arguments, session, variant, scene, progress.part(0.6, 0.7))};
     PendingFiles files;
-    export_scene(files, arguments.file, scene, flow.parameters(), progress.part(0.7, 1.0));
+    export_scene(files, arguments.file, scene, options, progress.part(0.7, 1.0));
     progress.check_cancelled();
     files.commit();
     record_export(session, arguments.file, variant);

@@ -10,7 +10,6 @@
 #include "workbench/case/json_text.h"
 #include "workbench/case/near_names.h"
 #include "workbench/case/purposes.h"
-#include "workbench/export/export_formats.h"
 #include "workbench/export/flow_parameters.h"
 
 namespace vesselbench {
@@ -28,6 +27,15 @@ Operation openfoam() {
 fs::path without_last_slash(const fs::path& file) {
     const fs::path whole = fs::absolute(file).lexically_normal();
     return whole.has_filename() ? whole : whole.parent_path();
+}
+
+/// The suffixes of the formats that have a property.
+std::string suffixes_with(bool ExportFormat::*property) {
+    std::vector<std::string> suffixes;
+    for (const ExportFormat& format : export_formats())
+        if (format.*property)
+            suffixes.insert(suffixes.end(), format.suffixes.begin(), format.suffixes.end());
+    return joined(suffixes, " and ");
 }
 
 /// The row that writes a file of this name, or a null pointer.
@@ -86,6 +94,20 @@ void check_export_name(const fs::path& file) {
                      folder_text(export_formats()) + ")");
 }
 
+void check_takes_colour(const fs::path& file) {
+    check_export_name(file);
+    if (!format_of(file)->takes_colour)
+        throw UsageError("--colour: " + format_of(file)->name + " files hold no colours; " +
+                         suffixes_with(&ExportFormat::takes_colour) + " do");
+}
+
+void check_takes_page(const fs::path& file, const std::string& option) {
+    check_export_name(file);
+    if (!format_of(file)->takes_page)
+        throw UsageError(option + " is for " + suffixes_with(&ExportFormat::takes_page) +
+                         ", not for " + format_of(file)->name);
+}
+
 void check_export_place(const fs::path& file) {
     const fs::path place = without_last_slash(file);
     const ExportFormat* format = format_of(place);
@@ -102,10 +124,10 @@ void check_export_place(const fs::path& file) {
 }
 
 void export_scene(PendingFiles& files, const fs::path& file, const Scene& scene,
-                  const CfdParameters& flow, const Progress& progress) {
+                  const ExportOptions& options, const Progress& progress) {
     check_export_name(file);
     check_export_place(file);
-    format_of(file)->write(scene, files.add(without_last_slash(file)).string(), flow, progress);
+    format_of(file)->write(scene, files.add(without_last_slash(file)).string(), options, progress);
 }
 
 }  // namespace vesselbench

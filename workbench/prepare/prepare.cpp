@@ -208,7 +208,8 @@ void write_products(PendingFiles& files, const PrepareOptions& options, Prepared
     for (std::size_t i = 0; i < names.size(); ++i) {
         const Progress one = progress.part(done(i), done(i + 1));
         one.report(0.0, "writing the products");
-        export_scene(files, options.out / names[i], prepared.scene, prepared.flow, one);
+        export_scene(files, options.out / names[i], prepared.scene,
+                     {.flow = prepared.flow, .shown = {}}, one);
         prepared.products.push_back(names[i]);
     }
 }

@@ -428,9 +428,11 @@ void Document::export_to(const std::filesystem::path& file) {
         require_no_source(session, file);
         const Scene scene = session.scene(variant, progress.part(0.0, 0.7));
         PendingFiles files;
-        export_scene(files, file, scene,
-                     FlowSettings(stored_text(project, StoredText::Flow)).parameters(),
-                     progress.part(0.7, 1.0));
+        export_scene(
+            files, file, scene,
+            {.flow = FlowSettings(stored_text(project, StoredText::Flow)).parameters(),
+             .shown = {.title = session.project().name(), .purpose = model_title(variant)}},
+            progress.part(0.7, 1.0));
         progress.check_cancelled();
         files.commit();
         record_export(session, file, variant);
