@@ -142,7 +142,8 @@ SCENARIO("The page of a model has slices of the image only where they are asked 
     CHECK_FALSE(case_in(viewer_page(scene, {})).contains("slices"));
     const Json shown = case_in(viewer_page(scene, {.slices = true}));
     CHECK(shown["slices"].size() == 3);
-    CHECK(shown["slices_place"].size() == 3);
+    for (const double x : shown["slices_place"])
+        CHECK(x == Approx(0.0).margin(1e-9));  // its middle
     CHECK(shown["holds"] == Json{"surface", "image slices"});
 }
 

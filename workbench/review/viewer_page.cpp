@@ -8,6 +8,7 @@
 #include "geometry/kernel/edges.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
+#include "geometry/kernel/surface_distance.h"
 #include "geometry/kernel/surface_gap.h"
 #include "workbench/case/point_json.h"
 #include "workbench/case/version.h"
@@ -114,13 +115,15 @@ Json distances_json(const std::vector<Structure>& structures, const Progress& pr
     return list;
 }
 
-/// The point of the vessel that is nearest to its middle, and half of its size [mm].
+/// The middle of the surface, or its point nearest to it if that lies outside; and how far all of
+/// the surface reaches from there along the axes [mm].
 std::pair<Vec3, double> place_and_reach(const Surface& surface) {
+    constexpr double kRoom = 1.1;  // around the surface
     const Bounds box = bounds(surface);
+    const SurfaceDistance distance = distance_to(surface);
     const Vec3 middle = box.centre();
-    return {*std::ranges::min_element(surface.points(), {},
-                                      [&](const Vec3& p) { return (p - middle).squaredNorm(); }),
-            0.55 * (box.max - box.min).maxCoeff()};
+    const Vec3 place = distance.inside(middle) ? middle : distance.closest_point(middle).point;
+    return {place, kRoom * (place - box.min).cwiseMax(box.max - place).maxCoeff()};
 }
 
 /// \return the slices' blobs; empty: there is no image
