@@ -1,6 +1,6 @@
-# Bundles the review page by npm and embeds it: cmake -DSOURCE=... -DPAGE=OUT.html -DTEXT=OUT.cpp -P this.
-# Without npm, or without a network when its packages are missing, the page is empty, and
-# `review --out` says what is missing.
+# Bundles the pages for browsers by npm and embeds them: cmake -DSOURCE=... -DOUT=FOLDER -P this writes
+# review_page.html, viewer_page.html, and a .cpp for each. Without npm, or without a network when its packages are
+# missing, the pages are empty, and `review --out` and `export model.html` say what is missing.
 include(${CMAKE_CURRENT_LIST_DIR}/EmbedFile.cmake)
 find_program(NODE node)
 find_program(NPM npm)
@@ -16,15 +16,20 @@ else()
       set(problem "npm ci: ${text}")
     endif()
   endif()
+endif()
+foreach(name review viewer)
+  set(page ${OUT}/${name}_page.html)
   if(NOT problem)
-    execute_process(COMMAND ${NODE} build.mjs ${PAGE} WORKING_DIRECTORY ${SOURCE} RESULT_VARIABLE failed ERROR_VARIABLE text)
+    execute_process(COMMAND ${NODE} build.mjs ${page} ${name} WORKING_DIRECTORY ${SOURCE} RESULT_VARIABLE failed ERROR_VARIABLE text)
     if(failed)
       set(problem "build.mjs: ${text}")
     endif()
   endif()
-endif()
+  if(problem)
+    file(WRITE ${page} "")
+  endif()
+  embed_file(${OUT}/${name}_page_bytes.cpp ${name}_page_bytes workbench/review/review_page_bytes.h ${page})
+endforeach()
 if(problem)
-  message(WARNING "the review page is not built: ${problem}")
-  file(WRITE ${PAGE} "")
+  message(WARNING "the pages for browsers are not built: ${problem}")
 endif()
-embed_file(${TEXT} review_page_bytes workbench/review/review_page_bytes.h ${PAGE})

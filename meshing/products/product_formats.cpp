@@ -1,6 +1,5 @@
 #include "meshing/products/product_formats.h"
 
-#include "meshing/products/glb.h"
 #include "meshing/products/gmsh.h"
 #include "meshing/products/openfoam_case.h"
 #include "meshing/products/threemf.h"
@@ -16,15 +15,7 @@ const std::vector<SurfaceFormat>& product_surface_formats() {
           .suffixes = {".3mf"},
           .content = "a solid for printing; the surface must be closed"},
          nullptr,
-         write_3mf},
-        {{.name = "GLB",
-          .kind = Surface,
-          .suffixes = {".glb"},
-          .content = "binary glTF 2.0 for viewers, with a colour per patch",
-          .unit = "m"},
-         nullptr,
-         [](const vesselbench::Surface& surface, const std::string& path, const Progress& progress,
-            const std::string&) { write_glb(surface, path, progress); }}};
+         write_3mf}};
     return rows;
 }
 

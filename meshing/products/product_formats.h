@@ -19,7 +19,7 @@ struct CaseFormat : Format {
                   const std::string& provenance) = nullptr;
 };
 
-/// Surface formats for printers and viewers, written only.
+/// Surface formats for printers, written only.
 [[nodiscard]] const std::vector<SurfaceFormat>& product_surface_formats();
 
 /// Formats of volume meshes, written only.

@@ -1,4 +1,4 @@
-#include "workbench/window/drawing/colourings.h"
+#include "workbench/colours/colourings.h"
 
 #include <algorithm>
 #include <array>

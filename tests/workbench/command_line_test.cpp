@@ -559,3 +559,43 @@ SCENARIO("A picture shows a surface, or its deviation", "[workbench][command-lin
     CHECK(names_in(folder) ==
           std::vector<std::string>{"ball.png", "ball.vtp", "deviation.png", "small.vtp"});
 }
+
+SCENARIO("A model is exported with its neighbours and a measure, for viewers",
+         "[workbench][command-line]") {
+    using namespace vesselbench;
+    const std::string folder = temporary_folder(), project = folder + "/tube.vbench";
+    write_surface(test::fine_tube(3.0, 12.0, 24), folder + "/tube.vtp");
+    write_surface(test::icosphere(2.0, 3), folder + "/ball.vtp");
+    REQUIRE(run({"new", project, folder + "/tube.vtp", "--units", "mm"}).exit_code == 0);
+    REQUIRE(run({"apply", project, "load-neighbour", "name=tumour", "file=" + folder + "/ball.vtp"})
+                .exit_code == 0);
+    const std::string glb = folder + "/model.glb", page = folder + "/model.html";
+    REQUIRE(run({"export", project, glb, "--colour", "mean-curvature"}).exit_code == 0);
+    CHECK_THAT(file_content(glb),
+               Contains("\"tumour\"") && Contains("COLOR_0") && Contains("\"unit\":\"1/mm\""));
+    THEN("a page takes title, text and a measure, unless the build has none") {
+        const ProgramRun made = run({"export", project, page, "--colour", "neighbour-distance",
+                                     "--title", "A tube", "--text", "<b> & a ball"});
+        if (made.exit_code == 1 && made.err.find("npm") != std::string::npos) {
+            test::skip(made.err);
+            return;
+        }
+        INFO(made.err);
+        REQUIRE(made.exit_code == 0);
+        CHECK_THAT(file_content(page), Contains("\"A tube\"") && Contains("\\u003cb\\u003e") &&
+                                           Contains("Distance to neighbours") && !Contains(folder));
+    }
+    THEN("what a format cannot show is refused, and nothing is written") {
+        const std::string stl = folder + "/model.stl";
+        check_usage_error({"export", project, stl, "--colour", "mean-curvature"},
+                          {"--colour", ".glb and .html"});
+        check_usage_error({"export", project, glb, "--title", "A tube"}, {"--title", ".html"});
+        check_usage_error({"export", project, stl, "--images", "slices"}, {"--images", ".html"});
+        const ProgramRun unknown = run({"export", project, page, "--colour", "curvature"});
+        CHECK(unknown.exit_code == 3);
+        CHECK_THAT(unknown.err, Contains("mean-curvature"));
+        CHECK(run({"export", project, page, "--images", "slices"}).exit_code == 3);  // no image
+        CHECK_FALSE(std::filesystem::exists(stl));
+        CHECK_FALSE(std::filesystem::exists(page));
+    }
+}

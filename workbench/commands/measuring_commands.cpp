@@ -4,6 +4,7 @@
 
 #include "geometry/formats/centerline_file.h"
 #include "geometry/kernel/wording.h"
+#include "workbench/colours/shown_measure.h"
 #include "workbench/operations/table.h"
 #include "workbench/suggest/processing_subject.h"
 
@@ -83,7 +84,8 @@ void add_picture(CommandLine& line) {
         ->type_name("FILE");
     command
         .add_option("--colour", options->colour,
-                    "Vertex attribute to show with a scale, as smooth keep_weights=true adds it")
+                    "Measure to show with a scale: " + measure_names_text() +
+                        ";\nor a vertex attribute, as smooth keep_weights=true adds it")
         ->type_name("NAME");
     command
         .add_option("--range", options->range,

@@ -12,9 +12,9 @@
 #include "gpu/png.h"
 #include "gpu/transparency.h"
 #include "workbench/case/json_text.h"
+#include "workbench/colours/shown_measure.h"
 #include "workbench/commands/commands.h"
 #include "workbench/operations/shared/foreign_surface.h"
-#include "workbench/report/colour_scale.h"
 #include "workbench/report/report_pictures.h"
 
 namespace vesselbench {
@@ -51,19 +51,8 @@ Vec3 view_of(const std::vector<double>& numbers) {
     throw UsageError("--view has no direction: give three numbers x,y,z, not all of them 0");
 }
 
-const std::vector<double>& attribute_of(const Surface& surface, const std::string& name) {
-    if (const auto found = surface.attributes.find(name); found != surface.attributes.end())
-        return *found->second;
-    std::vector<std::string> names;
-    for (const auto& [known, values] : surface.attributes) names.push_back(known);
-    throw InvalidInput("--colour: the surface has no vertex attribute '" + name + "'; " +
-                       (names.empty() ? "it has none: smooth keep_weights=true adds some, and VTP "
-                                        "and PLY files keep them"
-                                      : "it has " + joined(names)));
-}
-
-ColourScale scale_of(const PictureArguments& arguments, const std::vector<double>& values) {
-    ColourScale scale = scale_for(values);
+ColourScale scale_of(const PictureArguments& arguments, const ShownMeasure& measure) {
+    ColourScale scale = measure.scale;
     if (!arguments.range.empty()) {
         scale.least = arguments.range[0];
         scale.most = arguments.range[1];
@@ -78,11 +67,12 @@ struct Drawn {
 
 Drawn coloured(const Surface& surface, PictureOptions options, const PictureArguments& arguments) {
     if (!arguments.colour.empty()) {
-        const std::vector<double>& values = attribute_of(surface, arguments.colour);
-        const ColourScale scale = scale_of(arguments, values);
-        options.vertex_colours = colours_of(values, scale);
-        return {with_scale(draw(surface, options), scale, arguments.colour),
-                arguments.colour + " from " + formatted(scale.least, "%.3g") + " to " +
+        const ShownMeasure measure = shown_measure({.surface = surface}, arguments.colour, {});
+        const ColourScale scale = scale_of(arguments, measure);
+        options.vertex_colours = colours_of(measure.values, scale);
+        const std::string title = measure_title(measure);
+        return {with_scale(draw(surface, options), scale, title),
+                title + " from " + formatted(scale.least, "%.3g") + " to " +
                     formatted(scale.most, "%.3g")};
     }
     if (arguments.reference.empty()) return {draw(surface, options), "patches in their colours"};

@@ -12,6 +12,7 @@
 #include "workbench/case/diagnostic_words.h"
 #include "workbench/case/json_text.h"
 #include "workbench/case/purposes.h"
+#include "workbench/colours/shown_measure.h"
 #include "workbench/commands/commands.h"
 #include "workbench/commands/console.h"
 #include "workbench/export/products.h"
@@ -51,6 +52,32 @@ void refuse_source(const Session& session, const std::string& file) {
     if (session.is_source(file))
         throw IoError("'" + std::filesystem::path(file).filename().string() +
                       "' is a source of this project: it is not replaced; give another name");
+}
+
+/// \throw UsageError unless the file's format takes what is asked for
+void check_shown(const ExportArguments& arguments) {
+    if (!arguments.colour.empty()) check_takes_colour(arguments.file);
+    if (arguments.images != "off") check_takes_page(arguments.file, "--images");
+    if (!arguments.title.empty()) check_takes_page(arguments.file, "--title");
+    if (!arguments.text.empty()) check_takes_page(arguments.file, "--text");
+    require_utf8(arguments.title, "--title");
+    require_utf8(arguments.text, "--text");
+}
+
+/// What the file shows besides the scene.
+ViewerContents shown_contents(const ExportArguments& arguments, const Session& session,
+                              const std::string& variant, const Scene& scene,
+                              const Progress& progress) {
+    ViewerContents shown{
+        .title = arguments.title.empty() ? session.project().name() : arguments.title,
+        .text = arguments.text,
+        .purpose = model_title(variant),
+        .colour = {},
+        .slices = arguments.images == "slices"};
+    if (!arguments.colour.empty()) shown.colour = shown_measure(scene, arguments.colour, progress);
+    if (shown.slices && !scene.image)
+        throw InvalidInput("--images slices: the project has no image");
+    return shown;
 }
 
 /// \throw UsageError unless the name is UTF-8
@@ -108,6 +135,7 @@ void make_project(const NewArguments& arguments, const Progress& progress) {
 void export_project(const ExportArguments& arguments, const Progress& progress) {
     check_export_name(arguments.file);
     check_export_place(arguments.file);
+    check_shown(arguments);
     const std::size_t reviewers =
         arguments.required.empty() ? 0 : required_reviewers(arguments.required, "--require");
     Session session = Session::open(arguments.project, {.find = find_operation});
@@ -120,7 +148,7 @@ void export_project(const ExportArguments& arguments, const Progress& progress) 
     refuse_source(session, arguments.file);
     const std::string variant =
         variant_of(arguments.project, arguments.variant, *session.snapshot()->history);
-    const Scene scene = session.scene(variant, progress.part(0.0, 0.7));
+    const Scene scene = session.scene(variant, progress.part(0.0, 0.6));
     std::vector<EnteredVerdicts> verdicts =
         entered_verdicts(session.project(), arguments.signers, progress);
     if (!arguments.signers.empty()) verdicts = without_unsigned_acceptances(std::move(verdicts));
@@ -131,10 +159,12 @@ void export_project(const ExportArguments& arguments, const Progress& progress) 
             remark("warning: edit " + std::to_string(entry.edit.edit.id) + " " +
                    printable(entry.edit.operation) +
                    " no longer applies and is not in the model: " + entry.reason);
+    const ExportOptions options{
+        .flow = flow.parameters(),
+        .provenance = provenance(session, variant),
+        .shown = shown_contents(arguments, session, variant, scene, progress.part(0.6, 0.7))};
     PendingFiles files;
-    export_scene(files, arguments.file, scene,
-                 {.flow = flow.parameters(), .provenance = provenance(session, variant)},
-                 progress.part(0.7, 1.0));
+    export_scene(files, arguments.file, scene, options, progress.part(0.7, 1.0));
     progress.check_cancelled();
     files.commit();
     record_export(session, arguments.file, variant);

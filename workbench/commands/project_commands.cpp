@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "geometry/kernel/wording.h"
+#include "workbench/colours/shown_measure.h"
 #include "workbench/export/export_formats.h"
 
 namespace vesselbench {
@@ -207,6 +208,23 @@ void add_compact(CommandLine& line) {
     add_json(command, options->json);
 }
 
+/// Of models for viewers.
+void add_shown(CLI::App& command, ExportArguments& options) {
+    command
+        .add_option("--colour", options.colour,
+                    "Measure on the wall of a .glb or .html: " + measure_names_text() +
+                        ";\nor a vertex attribute, as smooth keep_weights=true adds it")
+        ->type_name("NAME");
+    command
+        .add_option("--images", options.images,
+                    "What a .html holds of the image: off; three slices through the model")
+        ->check(CLI::IsMember({"off", "slices"}));
+    command.add_option("--title", options.title, "Title of a .html (default: the project's name)")
+        ->type_name("WORDS");
+    command.add_option("--text", options.text, "Text of a .html about the case")
+        ->type_name("WORDS");
+}
+
 void add_export(CommandLine& line) {
     const auto options = std::make_shared<ExportArguments>();
     CLI::App& command =
@@ -230,6 +248,7 @@ void add_export(CommandLine& line) {
     add_signers(command, options->signers,
                 "Of acceptances, count those only that an allowed signer has signed")
         ->needs(command.get_option("--require"));
+    add_shown(command, *options);
     add_json(command, options->json);
 }
 

@@ -5,9 +5,12 @@
 #include "geometry/formats/image_formats.h"
 #include "geometry/formats/surface_formats.h"
 #include "geometry/kernel/diagnosed_error.h"
+#include "geometry/kernel/whole_file.h"
 #include "geometry/kernel/wording.h"
+#include "meshing/products/glb.h"
 #include "meshing/products/product_formats.h"
-#include "workbench/case/near_names.h"
+#include "workbench/colours/shown_measure.h"
+#include "workbench/report/colour_scale.h"
 
 namespace vesselbench {
 
@@ -30,10 +33,55 @@ void add_surfaces(std::vector<ExportFormat>& all, const std::vector<SurfaceForma
                  }});
 }
 
+constexpr int kLegendColours = 33;  ///< between them, viewers interpolate
+
+GlbColours glb_colours(const ShownMeasure& measure) {
+    GlbColours colours{.name = measure.name,
+                       .label = measure.label,
+                       .unit = measure.unit,
+                       .least = measure.scale.least,
+                       .most = measure.scale.most,
+                       .map = legend_colours(measure.scale, kLegendColours),
+                       .vertices = {}};
+    for (const Colour& colour : colours_of(measure.values, measure.scale))
+        colours.vertices.push_back({colour.x(), colour.y(), colour.z()});
+    return colours;
+}
+
+void export_glb(const Scene& scene, const std::string& path, const ExportOptions& options,
+                const Progress& progress) {
+    GlbModel model{.surface = surface_of(scene), .neighbours = scene.neighbours, .colours = {}};
+    if (options.shown.colour) model.colours = glb_colours(*options.shown.colour);
+    write_glb(model, path, progress);
+}
+
+void export_page(const Scene& scene, const std::string& path, const ExportOptions& options,
+                 const Progress& progress) {
+    const std::string page = viewer_page(scene, options.shown, progress.part(0.0, 0.9));
+    write_file(path, page, progress.part(0.9, 1.0));
+}
+
+/// Formats that show the scene with its neighbours.
+std::vector<ExportFormat> viewer_formats() {
+    return {{{.name = "GLB",
+              .suffixes = {".glb"},
+              .content = "binary glTF 2.0 for viewers, with neighbours and a node per part",
+              .unit = "m"},
+             export_glb,
+             true},
+            {{.name = "HTML",
+              .suffixes = {".html"},
+              .content = "one page that shows the model in any browser, with neighbours"},
+             export_page,
+             true,
+             true}};
+}
+
 std::vector<ExportFormat> joined_rows() {
     std::vector<ExportFormat> all;
     add_surfaces(all, surface_formats());
     add_surfaces(all, product_surface_formats());
+    for (const ExportFormat& row : viewer_formats()) all.push_back(row);
     for (const VolumeFormat& row : volume_formats())
         all.push_back(
             {row, [write = row.write](const Scene& scene, const std::string& path,

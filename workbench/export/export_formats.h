@@ -8,13 +8,15 @@
 #include "geometry/kernel/progress.h"
 #include "meshing/products/cfd_parameters.h"
 #include "workbench/case/scene.h"
+#include "workbench/review/viewer_page.h"
 
 namespace vesselbench {
 
-/// What an export says beside the scene; each format takes its own part.
+/// What an export adds to the scene, or says beside it; each format takes its own part.
 struct ExportOptions {
     CfdParameters flow = {};      ///< of a solver's case
     std::string provenance = {};  ///< line for the file's header, as provenance() makes it
+    ViewerContents shown = {};    ///< of models for viewers: colour; of pages all of it
 };
 
 /// A format that a scene can be exported in.
@@ -23,10 +25,12 @@ struct ExportFormat : Format {
     std::function<void(const Scene&, const std::string& path, const ExportOptions&,
                        const Progress&)>
         write;
+    bool takes_colour = false;  ///< shows ViewerContents::colour
+    bool takes_page = false;    ///< shows the rest of ViewerContents
 };
 
-/// The formats that can be written from a scene, of all rooms: surfaces, then volume meshes, then
-/// solvers' cases.
+/// The formats that can be written from a scene, of all rooms: surfaces, models for viewers, then
+/// volume meshes, then solvers' cases.
 [[nodiscard]] const std::vector<ExportFormat>& export_formats();
 
 /// The table of these formats for the help of `export`: a line each with suffix, content and unit.

@@ -29,6 +29,15 @@ fs::path without_last_slash(const fs::path& file) {
     return whole.has_filename() ? whole : whole.parent_path();
 }
 
+/// The suffixes of the formats that have a property.
+std::string suffixes_with(bool ExportFormat::*property) {
+    std::vector<std::string> suffixes;
+    for (const ExportFormat& format : export_formats())
+        if (format.*property)
+            suffixes.insert(suffixes.end(), format.suffixes.begin(), format.suffixes.end());
+    return joined(suffixes, " and ");
+}
+
 /// The row that writes a file of this name, or a null pointer.
 const ExportFormat* format_of(const fs::path& file) {
     return row_that_writes(export_formats(), without_last_slash(file).string());
@@ -83,6 +92,20 @@ void check_export_name(const fs::path& file) {
     throw UsageError("'" + file.filename().string() + "': there is no format for '" + suffix + "'" +
                      did_you_mean(suffix, suffixes) + " (there are " + joined(suffixes) + ", and " +
                      folder_text(export_formats()) + ")");
+}
+
+void check_takes_colour(const fs::path& file) {
+    check_export_name(file);
+    if (!format_of(file)->takes_colour)
+        throw UsageError("--colour: " + format_of(file)->name + " files hold no colours; " +
+                         suffixes_with(&ExportFormat::takes_colour) + " do");
+}
+
+void check_takes_page(const fs::path& file, const std::string& option) {
+    check_export_name(file);
+    if (!format_of(file)->takes_page)
+        throw UsageError(option + " is for " + suffixes_with(&ExportFormat::takes_page) +
+                         ", not for " + format_of(file)->name);
 }
 
 void check_export_place(const fs::path& file) {

@@ -43,6 +43,12 @@ private:
 /// \throw UsageError that lists the suffixes unless export_scene can write such a file
 void check_export_name(const std::filesystem::path& file);
 
+/// \throw UsageError that names the formats that do unless the one of this name shows a measure
+void check_takes_colour(const std::filesystem::path& file);
+
+/// \throw UsageError unless the format of this name is a page, which `option` is for
+void check_takes_page(const std::filesystem::path& file, const std::string& option);
+
 /// \throw IoError if a folder or file at this place must not be replaced by an export: it holds
 /// files of others, or results of a flow
 void check_export_place(const std::filesystem::path& file);

@@ -47,6 +47,13 @@ std::vector<Colour> colours_of(const std::vector<double>& values, const ColourSc
     return colours;
 }
 
+std::vector<PixelColour> legend_colours(const ColourScale& scale, int count) {
+    std::vector<PixelColour> colours;
+    for (const Colour& colour : colour_steps(scale.map, count))
+        colours.push_back(pixel_colour(colour));
+    return colours;
+}
+
 Picture with_scale(const Picture& picture, const ColourScale& scale, const std::string& title) {
     Picture page = picture;
     page.height += kFoot;

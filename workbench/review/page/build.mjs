@@ -1,4 +1,4 @@
-// Bundles the review page into one HTML file: node build.mjs OUT.html
+// Bundles a page into one HTML file: node build.mjs OUT.html [review|viewer]
 import { createHash } from 'node:crypto';
 import { mkdirSync, readFileSync, renameSync, writeFileSync } from 'node:fs';
 import { dirname, join, resolve } from 'node:path';
@@ -27,10 +27,14 @@ function check(page, script, style) {
   if (page.split(MARKER).length !== 2) throw new Error('the page does not hold its marker exactly once');
 }
 
-/** @param {string} out path of the page */
-export async function buildPage(out) {
-  const [script, style] = await Promise.all([bundle('main.js'), bundle('style.css')]);
-  const template = readFileSync(join(here, 'src', 'page.html'), 'utf8');
+/** The pages: that on which experts review edits, and that which shows a model. */
+const PAGES = { review: ['main.js', 'style.css', 'page.html'], viewer: ['viewer.js', 'viewer.css', 'viewer.html'] };
+
+/** @param {string} out path of the page @param {string} name of PAGES */
+export async function buildPage(out, name = 'review') {
+  const [entry, look, html] = PAGES[name];
+  const [script, style] = await Promise.all([bundle(entry), bundle(look)]);
+  const template = readFileSync(join(here, 'src', html), 'utf8');
   const page = fillTemplate(template, { script, style, 'script-hash': hash(script), 'style-hash': hash(style) });
   check(page, script, style);
   mkdirSync(dirname(resolve(out)), { recursive: true });
@@ -39,6 +43,7 @@ export async function buildPage(out) {
 }
 
 if (process.argv[1] && resolve(process.argv[1]) === fileURLToPath(import.meta.url)) {
-  if (process.argv.length !== 3) { console.error('usage: node build.mjs OUT.html'); process.exit(3); }
-  await buildPage(process.argv[2]);
+  const [out, name = 'review'] = process.argv.slice(2);
+  if (!out || !PAGES[name]) { console.error('usage: node build.mjs OUT.html [review|viewer]'); process.exit(3); }
+  await buildPage(out, name);
 }

@@ -11,9 +11,9 @@
 #include "gpu/render/drawn_surface.h"
 #include "gpu/render/layers.h"
 #include "workbench/case/scene.h"
+#include "workbench/colours/colourings.h"
 #include "workbench/session/task.h"
 #include "workbench/window/case/live_stroke.h"
-#include "workbench/window/drawing/colourings.h"
 
 namespace vesselbench {
 

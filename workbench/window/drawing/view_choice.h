@@ -5,7 +5,7 @@
 
 #include "geometry/kernel/cross_section.h"
 #include "geometry/kernel/measure.h"
-#include "workbench/window/drawing/colourings.h"
+#include "workbench/colours/colourings.h"
 
 namespace vesselbench {
 

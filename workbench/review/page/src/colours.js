@@ -22,15 +22,21 @@ export function patchColours(patches) {
   });
 }
 
+/** Of other structures, one after the other: apart from each other and from a vessel's wall. */
+const NEIGHBOURS = [0x8f8fc0, 0xd55e00, 0x009e73, 0xcc79a7, 0x56b4e9, 0xf0e442];
+export const neighbourColour = (number) => NEIGHBOURS[number % NEIGHBOURS.length];
+
 const RAMP = [[246, 243, 236], [252, 214, 132], [244, 157, 62], [214, 92, 36], [150, 38, 36], [78, 10, 34]];
 
-/** Colour of a share in [0, 1] of the largest deviation, from pale to dark. @returns {number[]} red, green, blue in [0, 255] */
-export function rampColour(share) {
-  const x = Math.min(1, Math.max(0, share)) * (RAMP.length - 1);
-  const i = Math.min(RAMP.length - 2, Math.floor(x));
-  return RAMP[i].map((low, k) => low + (x - i) * (RAMP[i + 1][k] - low));
+/** Colour of a share in [0, 1]: of the largest deviation, from pale to dark, or on another ramp. @returns {number[]} red, green, blue in [0, 255] */
+export function rampColour(share, ramp = RAMP) {
+  const x = Math.min(1, Math.max(0, share)) * (ramp.length - 1);
+  const i = Math.min(ramp.length - 2, Math.floor(x));
+  return ramp[i].map((low, k) => low + (x - i) * (ramp[i + 1][k] - low));
 }
 
 export const css = hex;
-/** CSS gradient of the ramp, upwards. */
-export const rampGradient = () => `linear-gradient(to top, ${RAMP.map((c) => `rgb(${c.join(' ')})`).join(', ')})`;
+/** The ramp's colours in CSS, with commas, for a gradient. */
+export const rampStops = (ramp = RAMP) => ramp.map((c) => `rgb(${c.join(' ')})`).join(', ');
+/** CSS gradient of a ramp, upwards or to another side. */
+export const rampGradient = (ramp = RAMP, side = 'top') => `linear-gradient(to ${side}, ${rampStops(ramp)})`;

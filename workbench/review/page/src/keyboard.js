@@ -4,7 +4,7 @@ const EDITABLE = 'input:not([type=range]):not([type=checkbox]):not([type=radio])
 
 /**
  * Binds the commands' keys to the document.
- * @param {{keys: string[], help: string, run: (event) => void}[]} commands
+ * @param {{keys: string[], help: string, run: (event) => void, when?: () => boolean}[]} commands when: the key is the command's only then
  * @param {() => boolean} enabled whether single keys are on
  */
 export function bindKeys(commands, enabled) {
@@ -21,7 +21,7 @@ export function bindKeys(commands, enabled) {
     if (target.matches('input[type=range]') && event.key.startsWith('Arrow')) return;
     if (event.key === 'Enter' && target.matches('button, summary, a, input')) return;
     const command = byKey.get(name);
-    if (!command || (event.key.length === 1 && event.key !== '?' && !enabled())) return;
+    if (!command || command.when?.() === false || (event.key.length === 1 && event.key !== '?' && !enabled())) return;
     event.preventDefault();
     command.run(event);
   });

@@ -7,6 +7,7 @@ import { draftsAllowed, keepDraft, restoreDraft } from './drafts.js';
 import { bindFiles, saveVerdicts } from './files.js';
 import { bindKeys } from './keyboard.js';
 import { readManifest } from './manifest.js';
+import { notice, say } from './messages.js';
 import { Pool } from './pool.js';
 import { writePaper } from './printing.js';
 import { ListPanel } from './queue.js';
@@ -18,21 +19,6 @@ import { Workplace } from './workplace.js';
 import { makeCommands } from './commands.js';
 
 const byId = (id) => document.getElementById(id);
-
-const SAID = 6000;  // a message is seen so long [ms]; readers of the screen hear it at once
-let saying = 0;
-
-function say(text) {
-  byId('say').textContent = text;
-  clearTimeout(saying);
-  saying = setTimeout(() => { byId('say').textContent = ''; }, SAID);
-}
-
-/** A message that stays. */
-function notice(text) {
-  byId('notice').hidden = !text;
-  byId('notice').textContent = text;
-}
 
 function manifestOfPage() {
   const element = byId('case');

@@ -13,13 +13,14 @@ function geometryOf(surface) {
 }
 
 /** Openings and caps are flat: shaded by their faces, they show no false curvature at the rim. */
-const patchMaterial = (colour, kind) => new MeshLambertMaterial({ color: colour, side: DoubleSide, flatShading: kind !== 'wall' });
+const patchMaterial = (colour, kind, vertexColors) => new MeshLambertMaterial({ color: vertexColors ? 0xffffff : colour, vertexColors, side: DoubleSide, flatShading: kind !== 'wall' });
 
-function deviationColours(values, max) {
+/** Colours of vertices. @param {(value: number) => number[]} colourOf red, green, blue in [0, 255] */
+function vertexColours(values, colourOf) {
   const colours = new Uint8Array(3 * values.length);
   const colour = new Color();
   for (let i = 0; i < values.length; ++i) {
-    const [r, g, b] = rampColour(values[i] / max);
+    const [r, g, b] = colourOf(values[i]);
     colour.setRGB(r / 255, g / 255, b / 255, 'srgb');
     colours.set([255 * colour.r, 255 * colour.g, 255 * colour.b].map(Math.round), 3 * i);
   }
@@ -29,13 +30,14 @@ function deviationColours(values, max) {
 /**
  * Makes the drawable parts of a surface. They share its vertices on the graphics card.
  * @param surface as `makeSurface` returns it
+ * @param {{colours?: number[], measure?: {values: Float32Array, colourOf: Function}}} look colours of the patches; a measure colours the wall
  * @returns {{group: Group, patches: Mesh, set: Function, dispose: Function}}
  */
-export function makeModel(surface) {
+export function makeModel(surface, { colours = patchColours(surface.patches), measure = null } = {}) {
   const geometry = geometryOf(surface);
+  if (measure) geometry.setAttribute('color', vertexColours(measure.values, measure.colourOf));
   surface.groups.forEach((group) => geometry.addGroup(3 * group.start, 3 * group.count, group.patch));
-  const colours = patchColours(surface.patches);
-  const materials = surface.patches.map((patch, i) => patchMaterial(colours[i], patch.kind));
+  const materials = surface.patches.map((patch, i) => patchMaterial(colours[i], patch.kind, Boolean(measure) && patch.kind === 'wall'));
   const patches = new Mesh(geometry, materials);
   const group = new Group().add(patches);
   const extra = {};
@@ -62,7 +64,7 @@ export function makeModel(surface) {
     },
     addDeviation(values, max) {
       const own = shared(geometry.index);
-      own.setAttribute('color', deviationColours(values, max));
+      own.setAttribute('color', vertexColours(values, (value) => rampColour(value / max)));
       addExtra('deviation', new Mesh(own, new MeshLambertMaterial({ vertexColors: true, side: DoubleSide })));
     },
     dispose() {

@@ -5,7 +5,7 @@ import { plain } from './text.js';
 const HEIGHT = 22;   // of a mark [CSS pixels]
 const SHARP = 2;     // texture pixels a CSS pixel
 
-function label(text, { ground, ink, round }) {
+function label(text, { ground, ink, round, order = 2 }) {
   const canvas = document.createElement('canvas');
   const context = canvas.getContext('2d');
   const font = `600 ${13 * SHARP}px system-ui, sans-serif`;
@@ -29,12 +29,12 @@ function label(text, { ground, ink, round }) {
   texture.colorSpace = SRGBColorSpace;
   const sprite = new Sprite(new SpriteMaterial({ map: texture, depthTest: false, transparent: true }));
   sprite.userData.width = canvas.width / SHARP;
-  sprite.renderOrder = 2;
+  sprite.renderOrder = order;
   return sprite;
 }
 
 const PIN = { ground: '#ffe45c', ink: '#1a1a1a', round: true };
-const LENGTH = { ground: '#ffffff', ink: '#1a1a1a', round: false };
+const LENGTH = { ground: '#ffffff', ink: '#1a1a1a', round: false, order: 3 };  // over its own ends
 const WARNING = { ground: '#7a1f00', ink: '#ffffff', round: false };
 const NAME = { ground: '#20303c', ink: '#ffffff', round: false };
 

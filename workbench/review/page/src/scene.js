@@ -1,33 +1,21 @@
 /** The 3D view: the states before and after an edit with one camera, in the ways to compare them. */
-import { Color, DirectionalLight, Group, HemisphereLight, Raycaster, Scene, Vector2, WebGLRenderer } from 'three';
-import { View } from './camera.js';
+import { Group } from 'three';
 import { AFTER, BEFORE, GHOST } from './colours.js';
 import { Dissolve } from './dissolve.js';
+import { Drawing, litScene } from './drawing.js';
 import { makeModel, makeNeighbour } from './models.js';
 
 /** Ways to look, in the order of the keys 1 to 6; `slices` is drawn elsewhere. */
 export const MODES = ['after', 'before', 'dissolve', 'side', 'deviation', 'slices'];
 
-function litScene() {
-  const scene = new Scene();
-  const lamp = new DirectionalLight(0xffffff, 1.9);
-  scene.add(new HemisphereLight(0xffffff, 0xb8b8c8, 1.5), lamp, lamp.target);
-  return { scene, lamp, model: null };
-}
-
-export class Stage {
+export class Stage extends Drawing {
   /** @param {HTMLCanvasElement} canvas @throws if the browser offers no WebGL 2 */
   constructor(canvas) {
-    this.canvas = canvas;
-    this.renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
-    this.renderer.autoClear = false;
-    this.view = new View(canvas, () => this.redraw());
+    super(canvas);
     this.sides = { before: litScene(), after: litScene() };
-    this.marks = new Scene();
     this.neighbours = new Group();
     this.dissolve = new Dissolve();
-    Object.assign(this, { mode: 'after', share: 0.5, blinkSide: null, lines: false, mark: true, waiting: false, ondraw: () => {}, onframe: () => {} });
-    new ResizeObserver(() => this.redraw()).observe(canvas);
+    Object.assign(this, { mode: 'after', share: 0.5, blinkSide: null, lines: false, mark: true });
   }
 
   /**
@@ -61,12 +49,6 @@ export class Stage {
     return mesh;
   }
 
-  redraw() {
-    if (this.waiting) return;
-    this.waiting = true;
-    requestAnimationFrame(() => { this.waiting = false; this.draw(); });
-  }
-
   /** Shows one of the sides whatever the mode: for blinking. */
   setBlink(side) { this.blinkSide = side; this.redraw(); }
 
@@ -81,8 +63,7 @@ export class Stage {
 
   prepare(name) {
     const { lamp, model } = this.sides[name];
-    lamp.position.copy(this.view.camera.position).add(this.view.camera.up.clone().multiplyScalar(this.view.reach * 0.4));
-    lamp.target.position.copy(this.view.controls.target);
+    this.aimLamp(lamp);
     if (!model) return;
     const map = this.mode === 'deviation' && !this.blinkSide && model.extra.deviation;
     if (this.lines) model.addLines(0x202028);
@@ -98,9 +79,7 @@ export class Stage {
     const { scene } = this.sides[name];
     scene.add(this.neighbours);
     this.renderer.render(scene, this.view.camera);
-    if (!marks) return;
-    this.onframe(this.view.perPixel(this.canvas.clientHeight));
-    this.renderer.render(this.marks, this.view.camera);
+    if (marks) this.drawMarks();
   }
 
   /** The removed part of the surface before, behind all of the map: seen through it, the map's colours would be wrong. */
@@ -113,30 +92,16 @@ export class Stage {
     this.renderer.clearDepth();
   }
 
-  draw() {
-    const { clientWidth: width, clientHeight: height } = this.canvas;
-    if (!width || !height) return;
-    const ratio = Math.min(2, window.devicePixelRatio || 1);
-    if (this.canvas.width !== Math.round(width * ratio) || this.canvas.height !== Math.round(height * ratio)) {
-      this.renderer.setPixelRatio(ratio);
-      this.renderer.setSize(width, height, false);
-    }
-    const colour = getComputedStyle(this.canvas).getPropertyValue('--stage').trim();
-    this.renderer.setClearColor(new Color(colour || '#ffffff'));
-    this.renderer.setScissorTest(false);
-    this.renderer.setViewport(0, 0, width, height);
-    this.renderer.clear();
+  paint(width, height, ratio) {
     if (this.mode === 'dissolve' && !this.blinkSide) this.drawDissolved(width, height, ratio);
     else for (const [name, left, share] of this.pictures()) this.drawPart(name, left * width, share * width, height);
-    this.ondraw();
   }
 
   drawDissolved(width, height, ratio) {
     this.view.setAspect(width / height);
     const draws = ['before', 'after'].map((name) => () => this.drawSide(name, false));
     this.dissolve.render(this.renderer, width * ratio, height * ratio, draws, this.share);
-    this.onframe(this.view.perPixel(height));
-    this.renderer.render(this.marks, this.view.camera);
+    this.drawMarks();
   }
 
   drawPart(name, left, width, height) {
@@ -156,10 +121,7 @@ export class Stage {
     const [name, left, width] = this.pictures().find(([, from, share]) => x >= from && x <= from + share) ?? this.pictures()[0];
     const model = this.sides[name].model;
     if (!model) return null;
-    this.view.setAspect((width * this.canvas.clientWidth) / this.canvas.clientHeight);
-    this.view.camera.updateMatrixWorld();  // the camera may have turned since the last frame
-    const caster = new Raycaster();
-    caster.setFromCamera(new Vector2(((x - left) / width) * 2 - 1, 1 - 2 * y), this.view.camera);
+    const caster = this.ray((x - left) / width, y, (width * this.canvas.clientWidth) / this.canvas.clientHeight);
     const visible = model.patches.visible;
     model.patches.visible = true;
     const hit = caster.intersectObject(model.patches, false)[0];

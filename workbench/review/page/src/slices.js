@@ -1,10 +1,7 @@
 /** Slices through the place of an edit: both contours, over the image where the page has it, with a scale bar. */
 import { cutSurface, ORTHOGONAL } from './contours.js';
+import { barLength } from './scale_bar.js';
 import { fill, make } from './text.js';
-
-const NICE = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100];  // lengths of a scale bar [mm]
-/** The longest bar that takes at most `room` pixels. @param {number} perPixel [mm] */
-export const barLength = (perPixel, room) => NICE.filter((mm) => mm / perPixel <= room).at(-1) ?? NICE[0];
 
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 
@@ -78,9 +75,12 @@ function drawLetters(context, letters, size) {
 }
 
 export class Slices {
-  /** @param {HTMLElement} element @param manifest @param pool */
-  constructor(element, manifest, pool) {
-    Object.assign(this, { element, pool, patient: manifest.project.source.kind === 'image' || manifest.project.source.kind === 'dicom', figures: [] });
+  /**
+   * @param {HTMLElement} element @param pool
+   * @param {{patient: boolean, before?: string, after?: string}} options patient: the coordinates are an image's; what the contours are, for readers of the screen
+   */
+  constructor(element, pool, { patient, before = 'dashed before', after = 'solid after' }) {
+    Object.assign(this, { element, pool, patient, contours: { before, after }, figures: [] });
     new ResizeObserver(() => this.draw()).observe(element);
   }
 
@@ -142,7 +142,7 @@ export class Slices {
   describe(one, plane) {
     const at = plane.axis === undefined ? '' : `, ${'xyz'[plane.axis]} = ${(Math.round(10 * plane.origin[plane.axis]) / 10 + 0).toFixed(1)} mm`;
     fill(one.caption, `${plane.title}${at}`);
-    const shown = [one.before && 'dashed before', one.after && 'solid after'].filter(Boolean).join(', ');
+    const shown = [one.before && this.contours.before, one.after && this.contours.after].filter(Boolean).join(', ');
     one.canvas.setAttribute('aria-label', `${plane.title} slice${at}: contours ${shown}`);
   }
 }

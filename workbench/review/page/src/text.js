@@ -61,6 +61,13 @@ export function figure(value, digits = 4) {
   return String(Number(value.toPrecision(digits)));
 }
 
+/** Texts of a scale's values, with as many decimals as tell them apart. @param {number[]} values evenly spaced */
+export function tickTexts(values) {
+  const step = Math.abs(values[1] - values[0]) || 1;
+  const decimals = Math.min(8, Math.max(0, 1 - Math.floor(Math.log10(step))));
+  return values.map((value) => { const text = value.toFixed(decimals); return Number(text) === 0 ? text.replace('-', '') : text.replace('-', '\u2212'); });
+}
+
 /** Value and unit of an argument or figure in plain words. */
 export function inWords({ value, unit }) {
   const one = (x) => (typeof x === 'number' ? figure(x) : typeof x === 'boolean' ? (x ? 'yes' : 'no') : String(x ?? '–'));

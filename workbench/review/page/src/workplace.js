@@ -1,10 +1,12 @@
 /** The middle of the page: 3D view, ways to look, legend, tools, slices. */
 import { calm } from './theme.js';
 import { rampGradient } from './colours.js';
+import { bindClicks } from './drawing.js';
 import { Marks, openingsOf } from './pins.js';
 import { framing, Preparer } from './prepare.js';
 import { MODES, Stage } from './scene.js';
-import { barLength, Slices } from './slices.js';
+import { drawScaleBar } from './scale_bar.js';
+import { Slices } from './slices.js';
 import { figure, fill, foreign, make } from './text.js';
 
 const byId = (id) => document.getElementById(id);
@@ -16,7 +18,7 @@ export class Workplace {
   constructor(manifest, pool, verdicts, say) {
     Object.assign(this, { manifest, pool, verdicts, say, mode: 'after', shown: null, edit: null, tool: null, start: null, blinking: 0 });
     this.preparer = new Preparer(pool, manifest);
-    this.slices = new Slices(byId('slices'), manifest, pool);
+    this.slices = new Slices(byId('slices'), pool, { patient: ['image', 'dicom'].includes(manifest.project.source.kind) });
     this.contours = manifest.holds.includes('contours');  // the writer may have left slices and contours out
     byId('slices-key').hidden = !this.contours;
     this.canvas = byId('canvas');
@@ -38,24 +40,13 @@ export class Workplace {
       return;
     }
     this.marks = new Marks(this.stage);
-    this.stage.ondraw = () => this.drawScaleBar();
-    this.bindClicks();
+    this.stage.ondraw = () => drawScaleBar(byId('scale-bar'), this.stage);
+    bindClicks(this.canvas, (x, y) => { if (this.tool) this.place(x, y); });
   }
 
   message(text) {
     byId('view-message').hidden = !text;
     byId('view-message').textContent = text;
-  }
-
-  /** A click is a press and a release at one place; a drag turns the model. */
-  bindClicks() {
-    let down = null;
-    this.canvas.addEventListener('pointerdown', (event) => { down = [event.clientX, event.clientY]; });
-    this.canvas.addEventListener('pointerup', (event) => {
-      if (!down || !this.tool || Math.hypot(event.clientX - down[0], event.clientY - down[1]) > 5) return;
-      const box = this.canvas.getBoundingClientRect();
-      this.place((event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height);
-    });
   }
 
   makeModes() {
@@ -202,13 +193,6 @@ export class Workplace {
 
   showMarks() {
     if (this.marks && this.edit && this.shown) this.marks.show(this.verdicts.of(this.edit.id), this.edit, this.openings, this.start);
-  }
-
-  drawScaleBar() {
-    const perPixel = this.stage.view.perPixel(this.canvas.clientHeight);
-    const mm = barLength(perPixel, 110);
-    byId('scale-bar').style.width = `${mm / perPixel}px`;
-    byId('scale-bar').firstElementChild.textContent = `${mm} mm`;
   }
 
   /** Shows an edit. @returns {Promise<object | null>} its surfaces; null if they cannot be shown */

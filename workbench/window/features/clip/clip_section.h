@@ -8,9 +8,9 @@
 #include "gpu/render/drawn_surface.h"
 #include "gpu/render/layers.h"
 #include "meshing/tetrahedra/volume_section.h"
+#include "workbench/colours/colourings.h"
 #include "workbench/session/task.h"
 #include "workbench/window/core/panel_context.h"
-#include "workbench/window/drawing/colourings.h"
 #include "workbench/window/drawing/view_choice.h"
 #include "workbench/window/drawing/view_strips.h"
 

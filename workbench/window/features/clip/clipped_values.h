@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "workbench/window/drawing/colourings.h"
+#include "workbench/colours/colourings.h"
 
 namespace vesselbench {
 

@@ -5,9 +5,9 @@
 #include <string>
 
 #include "geometry/vessel/centerlines/centerline_graph.h"
+#include "workbench/colours/colourings.h"
 #include "workbench/session/task.h"
 #include "workbench/window/case/document.h"
-#include "workbench/window/drawing/colourings.h"
 #include "workbench/window/drawing/view_choice.h"
 
 namespace vesselbench {

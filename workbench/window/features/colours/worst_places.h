@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "geometry/kernel/vec3.h"
+#include "workbench/colours/colourings.h"
 #include "workbench/window/case/document.h"
-#include "workbench/window/drawing/colourings.h"
 #include "workbench/window/features/colours/view_data.h"
 #include "workbench/window/features/live/live_model.h"
 

@@ -5,9 +5,9 @@
 #include <string>
 
 #include "geometry/kernel/deviation_map.h"
+#include "workbench/colours/colourings.h"
 #include "workbench/operations/smooth/live_smoother.h"
 #include "workbench/window/case/answerer.h"
-#include "workbench/window/drawing/colourings.h"
 
 namespace vesselbench {
 
