@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "geometry/formats/comment_line.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/plain_name.h"
@@ -96,6 +97,8 @@ public:
                                {"rotation", {-0.70710678, 0.0, 0.0, 0.70710678}},
                                {"extras", {{"centre_mm", point_of(centre_)}}}},
                               {{"name", "vessel"}, {"children", Json::array()}}};
+        if (!model.provenance.empty())
+            document_["asset"]["extras"] = {{"provenance", comment_line(model.provenance)}};
         add_vessel(model);
         if (!model.neighbours.empty()) add_neighbours(model.neighbours);
         document_["buffers"] = {{{"byteLength", data_.size()}}};

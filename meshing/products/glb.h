@@ -27,6 +27,7 @@ struct GlbModel {
     Surface surface;
     std::map<std::string, Surface> neighbours;  ///< other structures by name
     std::optional<GlbColours> colours;          ///< of the surface's wall; none: by patch
+    std::string provenance = {};                ///< `extras` of the asset; empty: none
 };
 
 /// Writes binary glTF 2.0 for viewers. The node "model" has the children "vessel", with a node for

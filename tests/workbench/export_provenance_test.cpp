@@ -45,7 +45,7 @@ constexpr const char* kHostile = "\nv 0 0 0\n\x1b[31m */ #codeStream UNITS=m <x>
 }  // namespace
 
 SCENARIO("Exported files carry a line on their provenance", "[workbench][export]") {
-    for (const char* name : {"a.ply", "a.obj", "a.off", "a.vtp", "a.vtu"})
+    for (const char* name : {"a.ply", "a.obj", "a.off", "a.vtp", "a.vtu", "a.glb"})
         CHECK_THAT(file_content(exported(name, kLine)), Contains(kLine));
     const std::string foam = exported("case", kLine);
     for (const char* file : {"/README", "/system/controlDict"})

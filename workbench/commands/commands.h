@@ -232,11 +232,11 @@ struct ExportArguments {
     std::string variant;                ///< empty: variant_of()
     std::vector<std::string> settings;  ///< "openfoam.parameter=value"
     std::string required;               ///< "accepted", "accepted=2"; empty: nothing
-    std::string signers;  ///< allowed ones, who sign acceptances; empty: none need be signed
-    std::string colour;                 ///< measure shown on the model; empty: none
-    std::string images = "off";         ///< of a page: off or slices
-    std::string title;                  ///< of a page; empty: the project's name
-    std::string text;                   ///< of a page, about the case
+    std::string signers;         ///< allowed ones, who sign acceptances; empty: none need be signed
+    std::string colour;          ///< measure shown on the model; empty: none
+    std::string images = "off";  ///< of a page: off or slices
+    std::string title;           ///< of a page; empty: the project's name
+    std::string text;            ///< of a page, about the case
     bool json = false;
 };
 

@@ -50,7 +50,10 @@ GlbColours glb_colours(const ShownMeasure& measure) {
 
 void export_glb(const Scene& scene, const std::string& path, const ExportOptions& options,
                 const Progress& progress) {
-    GlbModel model{.surface = surface_of(scene), .neighbours = scene.neighbours, .colours = {}};
+    GlbModel model{.surface = surface_of(scene),
+                   .neighbours = scene.neighbours,
+                   .colours = {},
+                   .provenance = options.provenance};
     if (options.shown.colour) model.colours = glb_colours(*options.shown.colour);
     write_glb(model, path, progress);
 }

@@ -169,9 +169,9 @@ void read_project(const AuditOptions& options, Audit& audit, const Progress& pro
             entered_verdicts(session.project(), options.signers, progress);
         check_witnesses(witnesses({}, entered, audit.record), audit);
         check_signatures(entered, audit);
-        audit.statement = statement_of(
-            session, review_of(session.project(), session.log(), entered), audit.record.entries,
-            options.find);
+        audit.statement =
+            statement_of(session, review_of(session.project(), session.log(), entered),
+                         audit.record.entries, options.find);
         add_dropped(session, audit);
         if (options.replay) check_replay(session, audit, progress);
     } catch (const InvalidInput& error) {

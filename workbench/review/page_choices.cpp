@@ -48,7 +48,8 @@ ByHand decided_by_hand(const Operation& operation, const Arguments& given) {
     ByHand by_hand;
     for (const Parameter& parameter : operation.parameters) {
         if (!given.has(parameter.name) || !decides(parameter)) continue;
-        const bool inlet = parameter.meaning == Meaning::Inlet || parameter.meaning == Meaning::InletEnd;
+        const bool inlet =
+            parameter.meaning == Meaning::Inlet || parameter.meaning == Meaning::InletEnd;
         if (parameter.use == Use::Decision) by_hand = {true, true, true};
         (inlet ? by_hand.inlet : by_hand.ends) = true;
     }

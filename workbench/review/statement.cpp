@@ -78,8 +78,8 @@ Json reviewers_json(const Review& review) {
 
 }  // namespace
 
-Json statement_of(const Session& session, const Review& review,
-                  std::span<const ChainEntry> entries, const OperationLookup& find) {
+Json statement_of(const Session& session, const Review& review, std::span<const ChainEntry> entries,
+                  const OperationLookup& find) {
     std::set<std::string> versions, operators;
     Json sources = Json::array(), segmentation = Json::array(), edits = Json::array();
     for (const LogEntry& entry : session.log()) {
