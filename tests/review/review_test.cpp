@@ -282,6 +282,15 @@ SCENARIO("A draft becomes a verdict with the marks that were given before", "[re
         CHECK(edit().pins[1].pin.text == "and here");
         CHECK(edit().distances.size() == 1);
     }
+    THEN("what was added while it was entered stays a draft") {
+        VerdictDraft added = draft;
+        added.pins.push_back({.place = Vec3(4, 5, 6), .text = "and here"});
+        const VerdictDraft rest = rest_of(added, draft);
+        REQUIRE(rest.pins.size() == 1);
+        CHECK(rest.pins[0].text == "and here");
+        CHECK(rest.comment.empty());
+        CHECK(rest.distances.empty());
+    }
     THEN("another reviewer's verdict has none of them") {
         CHECK(verdict_of({}, Verdict::Accept, edit(), "B. Roth").pins.empty());
     }

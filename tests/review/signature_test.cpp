@@ -147,10 +147,10 @@ SCENARIO("Where signatures are required, only signed acceptances count", "[revie
     const SignedReview review;
     Session session = Session::open(review.project, options());
     const auto missing = [&](std::size_t reviewers) {
-        return missing_acceptance(review_of(session.project(), session.log(),
-                                            without_unsigned_acceptances(entered_verdicts(
-                                                session.project(), review.signers))),
-                                  reviewers);
+        return missing_acceptance(
+            review_of(session.project(), session.log(),
+                      signed_or_rejecting(entered_verdicts(session.project(), review.signers))),
+            reviewers);
     };
     const auto enter = [&](const std::string& reviewer, Verdict verdict, const std::string& key) {
         const std::string file =
@@ -163,6 +163,16 @@ SCENARIO("Where signatures are required, only signed acceptances count", "[revie
     CHECK(missing(1).size() == 3);
     import_verdicts(session, review.file);
     CHECK(missing(1).empty());
+    THEN("no unsigned verdict takes a signed rejection back") {
+        enter("A. Kern", Verdict::Reject, review.key);
+        enter("A. Kern", Verdict::Unsure, "");
+        enter("A. Kern", Verdict::Accept, "");
+        CHECK_THAT(missing(1).at(0), Contains("rejected by A. Kern"));
+    }
+    THEN("an unsigned rejection stops the model") {
+        enter("E. Sommer", Verdict::Reject, "");
+        CHECK(missing(1).size() == 3);
+    }
     THEN("a key signs for one reviewer, whatever names it gives") {
         enter("D. Moser", Verdict::Accept, review.key);
         CHECK_THAT(missing(2).at(0), Contains("accepted by 1 of 2"));

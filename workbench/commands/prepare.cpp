@@ -69,7 +69,7 @@ ViewerContents shown_contents(const ExportArguments& arguments, const Session& s
                               const std::string& variant, const Scene& scene,
                               const Progress& progress) {
     ViewerContents shown{
-        .title = arguments.title.empty() ? session.project().name() : arguments.title,
+        .title = arguments.title.empty() ? shown_name(session.project()) : arguments.title,
         .text = arguments.text,
         .purpose = model_title(variant),
         .colour = {},
@@ -151,7 +151,7 @@ void export_project(const ExportArguments& arguments, const Progress& progress) 
     const Scene scene = session.scene(variant, progress.part(0.0, 0.6));
     std::vector<EnteredVerdicts> verdicts =
         entered_verdicts(session.project(), arguments.signers, progress);
-    if (!arguments.signers.empty()) verdicts = without_unsigned_acceptances(std::move(verdicts));
+    if (!arguments.signers.empty()) verdicts = signed_or_rejecting(std::move(verdicts));
     const Review review = review_of(session.project(), session.log(variant), verdicts);
     if (reviewers > 0) require_accepted(review, reviewers);
     for (const LogEntry& entry : session.log(variant))
@@ -161,7 +161,7 @@ void export_project(const ExportArguments& arguments, const Progress& progress) 
                    " no longer applies and is not in the model: " + entry.reason);
     const ExportOptions options{
         .flow = flow.parameters(),
-        .provenance = provenance(session, variant),
+        .provenance = provenance(session, variant, review),
         .shown = shown_contents(arguments, session, variant, scene, progress.part(0.6, 0.7))};
     PendingFiles files;
     export_scene(files, arguments.file, scene, options, progress.part(0.7, 1.0));

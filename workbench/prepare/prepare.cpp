@@ -208,8 +208,9 @@ void tell_remaining(const std::vector<std::string>& names, const Teller& tell) {
 
 void write_products(PendingFiles& files, const Session& session, const PrepareOptions& options,
                     PreparedCase& prepared, const Progress& progress) {
-    const ExportOptions how{.flow = prepared.flow,
-                            .provenance = provenance(session, options.purpose)};
+    const ExportOptions how{
+        .flow = prepared.flow,
+        .provenance = provenance(session, options.purpose, review_of(session, options.purpose))};
     const std::vector<std::string> names = product_names(options.purpose);
     const auto done = [&](std::size_t count) {
         return static_cast<double>(count) / static_cast<double>(names.size());

@@ -12,12 +12,14 @@ std::vector<EnteredVerdicts> entered_verdicts(const ProjectFile& project,
     return entered;
 }
 
-std::vector<EnteredVerdicts> without_unsigned_acceptances(std::vector<EnteredVerdicts> entered) {
+std::vector<EnteredVerdicts> signed_or_rejecting(std::vector<EnteredVerdicts> entered) {
+    const auto keep_rejection = [](Verdict& verdict) {
+        if (verdict != Verdict::Reject) verdict = Verdict::None;
+    };
     for (auto& [verdicts, signature] : entered) {
         if (signature.state == SignatureState::Verified) continue;
-        for (EditVerdict& verdict : verdicts.edits)
-            if (verdict.verdict == Verdict::Accept) verdict.verdict = Verdict::None;
-        if (verdicts.overall == Verdict::Accept) verdicts.overall = Verdict::None;
+        for (EditVerdict& verdict : verdicts.edits) keep_rejection(verdict.verdict);
+        keep_rejection(verdicts.overall);
     }
     return entered;
 }

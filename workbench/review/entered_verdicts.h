@@ -22,9 +22,10 @@ struct EnteredVerdicts {
     const ProjectFile& project, const std::filesystem::path& signers = {},
     const Progress& progress = {});
 
-/// What counts where signatures are required: acceptances only if their signature verifies, other
-/// verdicts always.
-[[nodiscard]] std::vector<EnteredVerdicts> without_unsigned_acceptances(
+/// What counts where signatures are required: verdicts whose signature verifies, and rejections
+/// always. Anyone can write an unsigned verdict in another's name: it may stop a model, but neither
+/// let it pass nor take a rejection back.
+[[nodiscard]] std::vector<EnteredVerdicts> signed_or_rejecting(
     std::vector<EnteredVerdicts> entered);
 
 }  // namespace vesselbench

@@ -4,7 +4,6 @@
 
 #include "geometry/kernel/wording.h"
 #include "workbench/project/project.h"
-#include "workbench/review/review.h"
 #include "workbench/session/stored_texts.h"
 
 namespace vesselbench {
@@ -12,13 +11,6 @@ namespace vesselbench {
 namespace {
 
 constexpr std::size_t kDigits = 12;
-
-/// The input's name where it was given one, so that no file name leaves with the model.
-std::string name_of(const ProjectFile& project) {
-    if (project.name().empty()) return "";
-    const std::string given = stored_text(project.folder() / project.name(), StoredText::InputName);
-    return given.empty() ? std::filesystem::path(project.name()).stem().string() : given;
-}
 
 std::string digest_of(const Session& session, const std::string& variant) {
     std::string digest;
@@ -29,12 +21,18 @@ std::string digest_of(const Session& session, const std::string& variant) {
 
 }  // namespace
 
-std::string provenance(const Session& session, const std::string& variant) {
-    const std::string name = name_of(session.project()), digest = digest_of(session, variant);
+std::string shown_name(const ProjectFile& project) {
+    if (project.name().empty()) return "";
+    const std::string given = stored_text(project.folder() / project.name(), StoredText::InputName);
+    return given.empty() ? std::filesystem::path(project.name()).stem().string() : given;
+}
+
+std::string provenance(const Session& session, const std::string& variant, const Review& review) {
+    const std::string name = shown_name(session.project()), digest = digest_of(session, variant);
     std::vector<std::string> parts;
     if (!name.empty()) parts.push_back("project " + name);
     if (!variant.empty()) parts.push_back(variant);
-    parts.push_back(review_words(review_of(session, variant)));
+    parts.push_back(review_words(review));
     if (!digest.empty()) parts.push_back("model " + digest);
     return joined(parts);
 }

@@ -97,12 +97,24 @@ void add_marks(const std::vector<EnteredVerdicts>& files, ReviewedEdit& edit) {
     }
 }
 
-std::set<std::string> accepting(const Review& review) {
-    std::set<std::string> names;
+/// By how many edits each reviewer accepts.
+std::map<std::string, std::size_t> acceptances(const Review& review) {
+    std::map<std::string, std::size_t> counts;
     for (const ReviewedEdit& edit : review.edits)
         for (const GivenVerdict& given : edit.verdicts)
-            if (given.verdict == Verdict::Accept && !given.outdated) names.insert(given.reviewer);
-    return names;
+            if (given.verdict == Verdict::Accept && !given.outdated) ++counts[given.reviewer];
+    return counts;
+}
+
+/// "accepted by A. Kern", who accepts every edit; "every edit accepted, by A. Kern, B. Roth", who
+/// share them.
+std::string acceptance_words(const Review& review) {
+    std::vector<std::string> some, all;
+    for (const auto& [reviewer, count] : acceptances(review)) {
+        some.push_back(reviewer);
+        if (count == review.edits.size()) all.push_back(reviewer);
+    }
+    return all.empty() ? "every edit accepted, by " + joined(some) : "accepted by " + joined(all);
 }
 
 std::string edit_words(const ReviewedEdit& edit) {
@@ -220,10 +232,7 @@ ReviewStatus status_of_whole(const Review& review) {
 std::string review_words(const Review& review) {
     if (review.files == 0) return "not reviewed";
     const ReviewStatus status = status_of(review);
-    const std::set<std::string> names = accepting(review);
-    if (status == ReviewStatus::Accepted)
-        return printable("accepted by " +
-                         joined(std::vector<std::string>(names.begin(), names.end())));
+    if (status == ReviewStatus::Accepted) return printable(acceptance_words(review));
     const auto accepted =
         std::ranges::count(review.edits, ReviewStatus::Accepted, &ReviewedEdit::status);
     return to_string(status) + ": " + std::to_string(accepted) + " of " +

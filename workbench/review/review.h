@@ -85,7 +85,8 @@ struct Review {
 /// Of the verdicts on the whole model alone.
 [[nodiscard]] ReviewStatus status_of_whole(const Review& review);
 
-/// One line: "accepted by A. Kern, B. Roth"; "open: 2 of 5 edits are accepted".
+/// One line: "accepted by A. Kern, B. Roth", who accept every edit; "every edit accepted, by A.
+/// Kern, B. Roth", none of whom does; "open: 2 of 5 edits accepted".
 [[nodiscard]] std::string review_words(const Review& review);
 
 /// What is missing until `reviewers`, of whom one key signs for one only, have accepted every edit

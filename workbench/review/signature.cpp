@@ -84,10 +84,11 @@ private:
                        {"-f", signers_.string(), "-s", file, "-Overify-time=" + time_});
         try {
             return run_to_end(command, input, kLimit, progress_);
-        } catch (const IoError&) {
+        } catch (const IoError& error) {
             throw IoError(
-                "signatures are verified by ssh-keygen, which cannot be started: install OpenSSH's "
-                "client (Debian: openssh-client)");
+                "signatures are verified by ssh-keygen of OpenSSH's client (Debian: "
+                "openssh-client): " +
+                std::string(error.what()));
         }
     }
 
@@ -143,10 +144,17 @@ Signature signature_of(const StoredVerdicts& verdicts, const std::filesystem::pa
     const std::vector<std::string> principals = lines_of(found.out);
     if (found.exit_code != 0 || principals.empty())
         return {.state = SignatureState::Invalid, .problem = verifier.problem(found)};
-    const ProgramResult verified = verifier.verify(principals.front());
-    if (verified.exit_code != 0)
-        return {.state = SignatureState::Invalid, .problem = verifier.problem(verified)};
-    return {.state = SignatureState::Verified, .signer = joined(principals)};
+    std::vector<std::string> signers_of_it;  // a key may sign something else under another name
+    std::string problem;
+    for (const std::string& principal : principals) {
+        const ProgramResult verified = verifier.verify(principal);
+        if (verified.exit_code == 0)
+            signers_of_it.push_back(principal);
+        else
+            problem = verifier.problem(verified);
+    }
+    if (signers_of_it.empty()) return {.state = SignatureState::Invalid, .problem = problem};
+    return {.state = SignatureState::Verified, .signer = joined(signers_of_it)};
 }
 
 }  // namespace vesselbench

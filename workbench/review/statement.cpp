@@ -60,13 +60,14 @@ Json reviewers_json(const Review& review) {
     };
 
     std::map<std::string, Counts> reviewers;
-    for (const ReviewedEdit& edit : review.edits)
-        for (const GivenVerdict& given : edit.verdicts) {
-            Counts& counts = reviewers[given.reviewer];
-            counts.role = given.role;
-            counts.signatures.insert(signature_words(given.signature));
-            ++counts.verdicts[given.outdated ? "outdated" : to_string(given.verdict)];
-        }
+    const auto count = [&](const GivenVerdict& given) {
+        Counts& counts = reviewers[given.reviewer];
+        counts.role = given.role;
+        counts.signatures.insert(signature_words(given.signature));
+        ++counts.verdicts[given.outdated ? "outdated" : to_string(given.verdict)];
+    };
+    for (const ReviewedEdit& edit : review.edits) std::ranges::for_each(edit.verdicts, count);
+    std::ranges::for_each(review.overall, count);
     Json list = Json::array();
     for (const auto& [name, counts] : reviewers)
         list.push_back({{"name", name},

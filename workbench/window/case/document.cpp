@@ -433,8 +433,8 @@ void Document::export_to(const std::filesystem::path& file) {
         export_scene(
             files, file, scene,
             {.flow = flow.parameters(),
-             .provenance = provenance(session, variant),
-             .shown = {.title = session.project().name(), .purpose = model_title(variant)}},
+             .provenance = provenance(session, variant, review_of(session, variant)),
+             .shown = {.title = shown_name(session.project()), .purpose = model_title(variant)}},
             progress.part(0.7, 1.0));
         progress.check_cancelled();
         files.commit();

@@ -101,7 +101,8 @@ public:
 
     [[nodiscard]] bool searches_places() const { return search_.pending(); }
 
-    /// True if clicks on the model and in slices are for a tool, and for nothing else.
+    /// True if clicks on the model are for a tool, and for nothing else; those in slices measure
+    /// distances and else move the cross.
     [[nodiscard]] bool has_click_tool() const {
         return view.tool != ClickTool::None && armed().empty();
     }

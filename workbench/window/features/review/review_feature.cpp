@@ -185,7 +185,7 @@ std::string ReviewFeature::why_not(Verdict verdict) const {
     const std::string missing =
         why_incomplete(draft == drafts_.end() ? VerdictDraft{} : draft->second, verdict);
     if (!missing.empty()) return missing;
-    if (entering_) return "a verdict is being entered";
+    if (entering_ || reading_.pending()) return "a verdict is being entered";
     return core_.document.why_not(RequestKind::History);
 }
 
@@ -193,7 +193,9 @@ void ReviewFeature::give(Verdict verdict) {
     if (!why_not(verdict).empty()) return;
     const Reviewer reviewer{core_.settings.reviewer, core_.settings.reviewer_role};
     const std::string done = done_words(verdict, chosen());
-    const auto entered = [this, id = *chosen_] { drafts_.erase(id); };
+    const auto entered = [this, id = *chosen_, given = draft()] {
+        drafts_[id] = rest_of(std::move(drafts_[id]), given);
+    };
     entering_ = true;
     if (const ReviewedEdit* edit = chosen())
         enter(
