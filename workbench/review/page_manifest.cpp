@@ -18,6 +18,7 @@
 #include "workbench/report/log_json.h"
 #include "workbench/review/known_operation.h"
 #include "workbench/review/page_queue.h"
+#include "workbench/review/provenance.h"
 #include "workbench/review/review.h"
 #include "workbench/review/review_json.h"
 
