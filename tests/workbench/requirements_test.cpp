@@ -143,6 +143,28 @@ SCENARIO("A wall that has moved is measured against its source", "[workbench][re
         CHECK(model_figures(source, model, {}, {}).largest_lost.value() > 15.0);
         CHECK(model_figures(source, model, {end}, {}).largest_lost.value() < 0.01);
     }
+    THEN("a stump that was cut off changes no distance to a neighbour") {
+        model.surface = fine_tube(2.0, 20.0, 96);
+        const MadeEnd end{.centre = Vec3(0, 0, 20), .outward = Vec3::UnitZ(), .diameter = 4.0};
+        // The nerve is beside the stump; the rows that end the compared walls are 0.11 mm high.
+        model.neighbours = {{"nerve", icosphere(1.0, 4, Vec3(5.0, 0.0, 35.0))},
+                            {"tumour", icosphere(1.0, 4, Vec3(5.0, 0.0, 10.0))}};
+        const ModelFigures cut = model_figures(source, model, {end}, {});
+        CHECK(cut.neighbours.at("nerve") == Approx(0.0).margin(0.12));
+        CHECK(cut.neighbours.at("tumour") == Approx(0.0).margin(0.02));
+        CHECK(judged("planning", cut, kRelations) == Judgement::Met);
+        CHECK(model_figures(source, model, {}, {}).neighbours.at("nerve") > 10.0);
+    }
+    THEN("a wall that moves within a closed neighbour changes its distance") {
+        model.neighbours = {{"tumour", icosphere(1.0, 4, Vec3(2.3, 0.0, 20.0))}};
+        CHECK(model_figures(source, model, {}, {}).neighbours.at("tumour") ==
+              Approx(-0.1).epsilon(0.2));
+    }
+    THEN("a neighbour that is open has no inside") {
+        model.neighbours = {{"skin", open_tube(5.0, 40.0, 96, 40)}};
+        CHECK(model_figures(source, model, {}, {}).neighbours.at("skin") ==
+              Approx(-0.1).epsilon(0.05));
+    }
     THEN("an estimated sampling gives no limit") {
         source.sampling->confidence = 0.9;
         CHECK_FALSE(model_figures(source, model, {}, {}).voxel_diagonal.has_value());
