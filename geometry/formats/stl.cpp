@@ -16,8 +16,8 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little);
 
-constexpr std::size_t kCountAt = 80;
-constexpr std::size_t kHeader = 84;  // 80 bytes of text, then the number of triangles
+constexpr std::size_t kCountAt = 80;  // behind the text: the number of triangles
+constexpr std::size_t kHeader = kCountAt + sizeof(std::uint32_t);
 constexpr std::size_t kRecord = 50;  // normal, three corners (floats), two bytes
 
 Vec3 corner_of(const char* record, std::size_t k) {
@@ -28,14 +28,14 @@ Vec3 corner_of(const char* record, std::size_t k) {
 
 std::uint32_t stated_count(const std::string& bytes) {
     std::uint32_t count = 0;
-    std::memcpy(&count, bytes.data() + 80, sizeof count);
+    std::memcpy(&count, bytes.data() + kCountAt, sizeof count);
     return count;
 }
 
 RawSurface read_binary(const std::string& bytes, const std::string& file) {
     const std::size_t count = stated_count(bytes);
     RawSurface raw;
-    raw.unit = stated_unit(std::string_view(bytes).substr(0, 80));
+    raw.unit = stated_unit(std::string_view(bytes).substr(0, kCountAt));
     raw.triangles.reserve(count);
     PointWelder welder(count / 2 + 16);
     for (std::size_t t = 0; t < count; ++t) {
@@ -180,7 +180,7 @@ void write_stl(const Surface& surface, const std::string& path, const Progress& 
     const std::string header = header_text(provenance);
     std::memcpy(bytes.data(), header.data(), header.size());
     const auto count = static_cast<std::uint32_t>(surface.triangle_count());
-    std::memcpy(bytes.data() + 80, &count, sizeof count);
+    std::memcpy(bytes.data() + kCountAt, &count, sizeof count);
     char* record = bytes.data() + kHeader;
     LoopProgress rows(progress, surface.triangle_count(), writing_text(path));
     for (const Triangle& t : surface.triangles()) {

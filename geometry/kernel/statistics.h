@@ -35,4 +35,18 @@ template <class Number>
     return static_cast<double>(*at);
 }
 
+/// The value below which a share of the weight lies, without interpolation.
+/// \param values not empty \param weights #values, at least 0 \param share from 0 to 1
+[[nodiscard]] inline double weighted_percentile(std::span<const double> values,
+                                                std::span<const double> weights, double share) {
+    std::vector<std::size_t> order(values.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::sort(order, {}, [&](std::size_t i) { return values[i]; });
+    const double wanted = share * std::accumulate(weights.begin(), weights.end(), 0.0);
+    double below = 0.0;
+    for (const std::size_t i : order)
+        if ((below += weights[i]) >= wanted) return values[i];
+    return values[order.back()];  // the sums differ by rounding
+}
+
 }  // namespace vesselbench

@@ -44,6 +44,7 @@ void add_triangle(const Surface& surface, const SurfaceDistance& distance, doubl
     const double edge = mean_edge(surface.points(), triangle);
     resolution.edges_around.push_back(std::numbers::pi * *width / edge);
     resolution.sags.push_back(edge * edge / (4.0 * *width));  // h^2 / (8 r)
+    resolution.areas.push_back(0.5 * normal.norm());
 }
 
 }  // namespace

@@ -21,6 +21,7 @@ struct WallEdges {
 struct WallResolution {
     std::vector<double> edges_around;  ///< circumference by mean edge [-]
     std::vector<double> sags;          ///< height of the lumen's arc over a mean edge [mm]
+    std::vector<double> areas;         ///< of the triangles, their weights in shares [mm^2]
 };
 
 /// One value for each triangle, or for about `most` evenly chosen ones; none where no wall is

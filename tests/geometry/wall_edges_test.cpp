@@ -50,6 +50,14 @@ SCENARIO("The sizes of neighbouring triangles", "[geometry][wall-edges]") {
     }
 }
 
+SCENARIO("The percentile of weighted values", "[geometry][wall-edges]") {
+    const std::vector<double> values = {3.0, 1.0, 2.0}, weights = {1.0, 8.0, 1.0};
+    CHECK(weighted_percentile(values, weights, 0.0) == 1.0);
+    CHECK(weighted_percentile(values, weights, 0.79) == 1.0);
+    CHECK(weighted_percentile(values, weights, 0.85) == 2.0);
+    CHECK(weighted_percentile(values, weights, 1.0) == 3.0);
+}
+
 SCENARIO("The triangles of a tube beside its radius", "[geometry][wall-edges]") {
     const double edge = 2.0 * std::numbers::pi * 2.0 / 48.0;
     for (const double scale : {1.0, 10.0}) {
@@ -58,6 +66,18 @@ SCENARIO("The triangles of a tube beside its radius", "[geometry][wall-edges]") 
         const WallResolution found = wall_resolution(tube, SurfaceDistance(tube));
         CHECK(median(found.edges_around) == Approx(48.0).epsilon(0.03));
         CHECK(median(found.sags) == Approx(scale * edge * edge / 16.0).epsilon(0.05));
+    }
+    THEN("a coarse half of the wall weighs as much as a fine one") {
+        // Nine in ten of the triangles are in the lower half.
+        const Surface graded = mapped(fine_tube(2.0, 30.0, 48), [](const Vec3& p) {
+            return Vec3(p.x(), p.y(), p.z() < 27.0 ? p.z() / 1.8 : 15.0 + 5.0 * (p.z() - 27.0));
+        });
+        WallResolution found = wall_resolution(graded, SurfaceDistance(graded));
+        REQUIRE(found.areas.size() == found.edges_around.size());
+        const double coarse = weighted_percentile(found.edges_around, found.areas, 0.4);
+        const double fine = weighted_percentile(found.edges_around, found.areas, 0.75);
+        CHECK(coarse < 0.7 * fine);
+        CHECK(percentile(found.edges_around, 0.4) == Approx(fine).epsilon(0.1));
     }
     THEN("some of the triangles are enough") {
         const Surface tube = fine_tube(2.0, 30.0, 48);

@@ -18,7 +18,7 @@ std::span<const Purpose> purposes() {
          .result = "CFD case",
          .result_file = "openfoam",
          .simulates_flow = true,
-         .relevance = "+-++++"},
+         .relevance = {'+', '-', '+', '+', '+', '+'}},
         {.name = "rp",
          .title = "Model for printing",
          .help = "printing (rp)",
@@ -26,17 +26,17 @@ std::span<const Purpose> purposes() {
          .products = {"print.stl", "print.3mf"},
          .result = "print model",
          .result_file = "print.stl",
-         .relevance = "+-+o--"},
+         .relevance = {'+', '-', '+', 'o', '-', '-'}},
         {.name = "planning",
          .title = "Model for treatment planning",
          .help = "pictures\n(planning: keeps raw triangles)",
          .summary = "Smooth surface with its own triangles",
-         .relevance = "+++o--"},
+         .relevance = {'+', '+', '+', 'o', '-', '-'}},
         {.name = "simulation",
          .title = "Model for surgery simulation",
          .help = "surgery simulation (simulation)",
          .summary = "Smooth, remeshed surface",
-         .relevance = "-o+o++"}};
+         .relevance = {'-', 'o', '+', 'o', '+', '+'}}};
     return table;
 }
 

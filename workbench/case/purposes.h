@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,7 +19,7 @@ struct Purpose {
     bool simulates_flow = false;  ///< the report describes volume mesh and flow
     /// Relevance of small features, spatial relations, smoothness, high resolution, triangle
     /// quality and triangle size homogeneity: '+' high, 'o' medium, '-' low (thesis Table 2.1).
-    std::string relevance = "";
+    std::array<char, 6> relevance = {'-', '-', '-', '-', '-', '-'};
 };
 
 /// All purposes.

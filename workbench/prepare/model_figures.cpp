@@ -34,8 +34,22 @@ void add_distances(const Positions& source, const Surface& model, ModelFigures& 
     figures.lost_place = source[static_cast<std::size_t>(largest - distances.begin())];
 }
 
+/// The wall away from the ends that were made.
+Positions compared_points(const Surface& surface, const std::vector<MadeEnd>& ends) {
+    return comparable_points(surface, comparable_vertices(surface, ends));
+}
+
 double smallest(const Surface& neighbour, const Positions& points) {
-    return std::ranges::min(distances_from_neighbour(neighbour, points));
+    return std::ranges::min(signed_distances_from_neighbour(neighbour, points));
+}
+
+/// Of points that both have: a stump that was cut off, or an end that was extended, may be nearest
+/// to a neighbour although the wall has not moved.
+void add_neighbours(const Positions& before, const Positions& after, const Scene& model,
+                    ModelFigures& figures) {
+    if (before.empty() || after.empty()) return;
+    for (const auto& [name, neighbour] : model.neighbours)
+        figures.neighbours[name] = smallest(neighbour, after) - smallest(neighbour, before);
 }
 
 }  // namespace
@@ -48,12 +62,9 @@ ModelFigures model_figures(const Scene& source, const Scene& model,
     if (!source.surface) return figures;
     if (source.sampling && source.sampling->confidence >= 1.0)
         figures.voxel_diagonal = source.sampling->spacing.norm();
-    const Positions compared =
-        comparable_points(*source.surface, comparable_vertices(*source.surface, ends));
+    const Positions compared = compared_points(*source.surface, ends);
     add_distances(compared, surface, figures);
-    for (const auto& [name, neighbour] : model.neighbours)
-        figures.neighbours[name] =
-            smallest(neighbour, surface.points()) - smallest(neighbour, source.surface->points());
+    add_neighbours(compared, compared_points(surface, ends), model, figures);
     return figures;
 }
 

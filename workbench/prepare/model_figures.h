@@ -9,7 +9,8 @@
 namespace vesselbench {
 
 /// What a prepared model is judged by. The distances are from the source's wall, away from the ends
-/// that were made; what was removed otherwise counts as lost.
+/// that were made; what was removed otherwise counts as lost. Those to neighbours are from the
+/// walls of both, away from these ends too.
 /// \param source after the edit that made its surface; without a surface there are no distances
 /// \param edits of the model, for what it was remeshed for
 [[nodiscard]] ModelFigures model_figures(const Scene& source, const Scene& model,

@@ -38,6 +38,12 @@ std::optional<double> part_of(std::vector<double> values, double share) {
     return percentile(values, share);
 }
 
+std::optional<double> part_of_area(const std::vector<double>& values,
+                                   const std::vector<double>& areas, double share) {
+    if (values.empty()) return std::nullopt;
+    return weighted_percentile(values, areas, share);
+}
+
 /// \param met none: there is no limit
 void judge(Requirement& row, std::optional<bool> met) {
     if (row.figures.is_null())
@@ -102,12 +108,14 @@ void judge_resolution(Requirement& row, const Purpose& purpose, const ModelFigur
     if (!model.edges_around || !model.sag) return judge(row, {});
     row.figures = {{"edges_around", *model.edges_around}, {"sag_mm", *model.sag}};
     if (purpose.simulates_flow) {
-        row.limit = "at least " + formatted(kLeastEdgesAround) + " edges around 95 % of the wall";
+        row.limit =
+            "at least " + formatted(kLeastEdgesAround) + " edges around 95 % of the wall's area";
         row.reason = "a regular polygon of 12 edges has 95.5 % of its circle's area";
         return judge(row, *model.edges_around >= kLeastEdgesAround);
     }
     if (!model.print_resolution) return judge(row, {});
-    row.limit = "sag of 95 % of the wall at most " + formatted(*model.print_resolution, "%.3g mm");
+    row.limit =
+        "sag of 95 % of the wall's area at most " + formatted(*model.print_resolution, "%.3g mm");
     row.reason = "print_resolution that the surface was remeshed for";
     judge(row, *model.sag <= *model.print_resolution);
 }
@@ -136,11 +144,11 @@ void judge_homogeneity(Requirement& row, const ModelFigures& model) {
 
 ModelFigures shape_figures(const Surface& model) {
     const WallEdges edges = wall_edges(model);
-    const WallResolution resolution = wall_resolution(model, distance_to(model));
+    const WallResolution wall = wall_resolution(model, distance_to(model));
     ModelFigures figures{.sharp_edges = share_above(edges.angles, kSharpEdge),
                          .normal_curvature = mean(normal_curvature(model)),
-                         .edges_around = part_of(resolution.edges_around, 0.05),
-                         .sag = part_of(resolution.sags, 0.95),
+                         .edges_around = part_of_area(wall.edges_around, wall.areas, 0.05),
+                         .sag = part_of_area(wall.sags, wall.areas, 0.95),
                          .wall = wall_shape(model)};
     figures.median_size_ratio = part_of(edges.size_ratios, 0.5).value_or(1.0);
     figures.percentile_99_size_ratio = part_of(edges.size_ratios, 0.99).value_or(1.0);

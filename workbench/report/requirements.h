@@ -23,8 +23,8 @@ struct ModelFigures {
     std::optional<double> voxel_diagonal;           ///< of the source image [mm]
     double sharp_edges = 0.0;                       ///< of the wall's, kSharpEdge and more [-]
     double normal_curvature = 0.0;                  ///< mean over the vertices [deg]
-    std::optional<double> edges_around;             ///< 95 % of the wall have more [-]
-    std::optional<double> sag;                      ///< 95 % of the wall have less [mm]
+    std::optional<double> edges_around;             ///< 95 % of the wall's area has more [-]
+    std::optional<double> sag;                      ///< 95 % of the wall's area has less [mm]
     std::optional<double> print_resolution;         ///< that the model was made for [mm]
     TriangleShape wall;
     double median_size_ratio = 1.0, percentile_99_size_ratio = 1.0, largest_size_ratio = 1.0;

@@ -7,7 +7,9 @@
 
 #include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/statistics.h"
+#include "geometry/kernel/surface_distance.h"
 #include "geometry/kernel/wording.h"
+#include "smoothing/context/distance_weights.h"
 #include "workbench/case/point_json.h"
 #include "workbench/operations/shared/stack_axis.h"
 
@@ -190,6 +192,16 @@ Combination combination_from(const Arguments& arguments) {
 
 std::vector<double> distances_from_neighbour(const Surface& neighbour, const Positions& positions) {
     return neighbour_distances(positions, {&neighbour, 1});
+}
+
+std::vector<double> signed_distances_from_neighbour(const Surface& neighbour,
+                                                    const Positions& positions) {
+    require_neighbours({&neighbour, 1});
+    if (is_closed(neighbour)) return distance_to(neighbour).signed_distances(positions);
+    std::vector<double> distances;
+    for (const SurfacePoint& nearest : distance_to(neighbour).closest_points(positions))
+        distances.push_back(nearest.distance);
+    return distances;
 }
 
 double smallest_neighbour_distance(const Scene& scene, const Arguments& arguments,

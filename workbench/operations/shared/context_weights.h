@@ -100,6 +100,10 @@ void decide_weights(const Scene& scene, const std::string& operation, ContextFin
 [[nodiscard]] std::vector<double> distances_from_neighbour(const Surface& neighbour,
                                                            const Positions& positions);
 
+/// The same, negative inside a closed neighbour [mm].
+[[nodiscard]] std::vector<double> signed_distances_from_neighbour(const Surface& neighbour,
+                                                                  const Positions& positions);
+
 /// Smallest distance of a position from a neighbour [mm]; 0 inside.
 /// \throw AlgorithmFailure if there is no neighbour, or one without triangles
 [[nodiscard]] double smallest_neighbour_distance(const Scene& scene, const Arguments& arguments,
