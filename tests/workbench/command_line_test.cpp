@@ -422,6 +422,9 @@ SCENARIO("A picture shows a vertex attribute with a scale", "[workbench][command
     const ProgramRun unknown = run({"picture", file, out, "--colour", "width"});
     CHECK(unknown.exit_code == 3);
     CHECK_THAT(unknown.err, Contains("'width'") && Contains("it has height"));
+    CHECK_THAT(unknown.err, Contains("mean-curvature") && !Contains("neighbour-distance"));
+    CHECK_THAT(run({"picture", "--help"}).out,
+               Contains("mean-curvature") && !Contains("neighbour-distance"));
     const ProgramRun shown = run({"picture", file, out, "--colour", "height", "--size", "64"});
     if (shown.exit_code == 1 && shown.err.find("no pictures:") != std::string::npos) {
         vesselbench::test::skip(shown.err);

@@ -17,10 +17,12 @@ bool is_of_vertices(const ColouringInfo& info) {
     return info.kind != Patches && info.kind != Deviation && info.kind != TetrahedraQuality;
 }
 
-std::vector<std::string> measure_names() {
+/// \param offers which of them, by their kind
+template <class Offers>
+std::vector<std::string> measure_names(const Offers& offers) {
     std::vector<std::string> names;
     for (const ColouringInfo& info : colourings())
-        if (is_of_vertices(info)) names.emplace_back(info.name);
+        if (is_of_vertices(info) && offers(info.kind)) names.emplace_back(info.name);
     return names;
 }
 
@@ -36,17 +38,17 @@ ShownMeasure shown_measure(const Scene& scene, const std::string& name, const Pr
         return attribute_measure(name, *found->second);
     for (const ColouringInfo& info : colourings()) {
         if (name != info.name || !is_of_vertices(info)) continue;
-        std::vector<double> values = colour_values(info.kind, scene, progress).values;
-        const ColourScale scale = scale_for(values);
+        ColourValues found = colour_values(info.kind, scene, progress);
         return {.name = name,
                 .label = info.label,
                 .unit = info.unit == std::string("-") ? "" : info.unit,
-                .values = std::move(values),
-                .scale = scale};
+                .values = std::move(found.values),
+                .scale = {ColourMap::Ordered, found.range.least, found.range.most}};
     }
     std::vector<std::string> known;
     for (const auto& [attribute, values] : surface.attributes) known.push_back(attribute);
-    for (const std::string& measure : measure_names()) known.push_back(measure);
+    const auto of_scene = [&](ColouringKind kind) { return why_no_colours(kind, scene).empty(); };
+    for (const std::string& measure : measure_names(of_scene)) known.push_back(measure);
     throw InvalidInput("--colour: the surface has no measure or vertex attribute '" + name + "'" +
                        did_you_mean(name, known) + " (it has " + joined(known) +
                        "; smooth keep_weights=true adds attributes, and VTP and PLY files keep "
@@ -58,7 +60,11 @@ std::string measure_title(const ShownMeasure& measure) {
 }
 
 std::string measure_names_text() {
-    return joined(measure_names());
+    return joined(measure_names([](ColouringKind) { return true; }));
+}
+
+std::string surface_measure_names_text() {
+    return joined(measure_names([](ColouringKind kind) { return kind != NeighbourDistance; }));
 }
 
 }  // namespace vesselbench

@@ -15,7 +15,7 @@ struct ShownMeasure {
     std::string label;           ///< "Local radius"; of an attribute its name
     std::string unit;            ///< "mm"; empty: a plain number, or not known
     std::vector<double> values;  ///< #V; not a number: none
-    ColourScale scale;
+    ColourScale scale;           ///< of colourings() the window's, of attributes scale_for()
 };
 
 /// A vertex attribute of the surface, or else a measure of colourings() that vertices have; those
@@ -28,7 +28,10 @@ struct ShownMeasure {
 /// "Local radius [mm]"
 [[nodiscard]] std::string measure_title(const ShownMeasure& measure);
 
-/// The names that shown_measure() takes of every surface, for help texts: "mean-curvature, ...".
+/// The names of colourings() that shown_measure() takes, for help texts: "mean-curvature, ...".
 [[nodiscard]] std::string measure_names_text();
+
+/// The same for scenes of a surface alone, without neighbours.
+[[nodiscard]] std::string surface_measure_names_text();
 
 }  // namespace vesselbench

@@ -84,7 +84,7 @@ void add_picture(CommandLine& line) {
         ->type_name("FILE");
     command
         .add_option("--colour", options->colour,
-                    "Measure to show with a scale: " + measure_names_text() +
+                    "Measure to show with a scale: " + surface_measure_names_text() +
                         ";\nor a vertex attribute, as smooth keep_weights=true adds it")
         ->type_name("NAME");
     command
