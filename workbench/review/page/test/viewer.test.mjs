@@ -12,10 +12,10 @@ const EVIL = ['<script>window.harmed = 1</script>', '"><img src=x onerror="windo
 const press = async (page, ...keys) => { for (const key of keys) await page.keyboard.press(key); };
 const drawn = (page) => page.waitForFunction(() => performance.getEntriesByName('viewer:first-picture').length > 0, { timeout: 60000 });
 
-/** Runs in the page after two frames: how many pixels of the picture are not its ground, and the mean of their colours. */
-async function picture(page) {
+/** After two frames: how many pixels of the picture are not its ground, and the mean of their colours. @param rows of it, in shares from its upper edge */
+async function picture(page, rows = [0, 1]) {
   await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
-  return page.evaluate(() => {
+  return page.evaluate(([first, last]) => {
     const view = document.getElementById('canvas');
     const canvas = Object.assign(document.createElement('canvas'), { width: view.width, height: view.height });
     const context = canvas.getContext('2d');
@@ -23,13 +23,20 @@ async function picture(page) {
     const { data } = context.getImageData(0, 0, canvas.width, canvas.height);
     let model = 0;
     const sum = [0, 0, 0];
-    for (let i = 0; i < data.length; i += 4) {
+    const row = (share) => 4 * canvas.width * Math.round(share * canvas.height);
+    for (let i = row(first); i < row(last); i += 4) {
       if ([0, 1, 2].every((k) => Math.abs(data[i + k] - data[k]) < 4)) continue;
       ++model;
       for (let k = 0; k < 3; ++k) sum[k] += data[i + k];
     }
     return { model, colour: sum.map((x) => x / Math.max(1, model)) };
-  });
+  }, rows);
+}
+
+/** Whether the wall is coloured by its height, on the sample's ramp: yellow above, violet below. */
+async function rises(page) {
+  const [[red, , blue], [, lowGreen, lowBlue]] = [(await picture(page, [0, 0.3])).colour, (await picture(page, [0.7, 1])).colour];
+  return red > blue + 30 && lowBlue > lowGreen + 30;
 }
 
 describe('the page that shows a model', { skip: missing, timeout: 240000 }, () => {
@@ -49,6 +56,12 @@ describe('the page that shows a model', { skip: missing, timeout: 240000 }, () =
     return page;
   };
   const box = (page, name) => page.evaluateHandle((label) => [...document.querySelectorAll('#structures label')].find((one) => one.textContent === label).querySelector('input'), name);
+
+  /** Hides all parts but one, and the names. */
+  const showOnly = async (page, name) => {
+    await press(page, 'n');
+    for (const other of ['wall', 'inlet', 'outlet 1', 'outlet 2', 'tumour', 'optic nerve'].filter((one) => one !== name)) await (await box(page, other)).click();
+  };
 
   test('it opens without an error or a request, and says what it holds', async () => {
     const page = await open(plain);
@@ -154,12 +167,14 @@ describe('the page that shows a model', { skip: missing, timeout: 240000 }, () =
     assert.match(await text(page, '#legend-text'), /Colour of the wall: Height from .* to .* mm/);
     assert.match(await text(page, '#case-holds'), /vertex measure, image slices; grey values/);
     assert.equal((await page.$$('#slices canvas')).length, 3);
-    for (const name of ['tumour', 'optic nerve']) await (await box(page, name)).click();
-    await press(page, 'n');
-    const [top, bottom] = [(await picture(page)).colour, [colour.colours[3], colour.colours[0]]];
-    assert.ok(top[1] > bottom[1][1], 'the ramp is on the wall');
+    await showOnly(page, 'wall');
+    assert.ok(await rises(page), 'the ramp is on the wall');
     assert.deepEqual(page.problems, []);
     await page.close();
+    const bare = await open(plain);
+    await showOnly(bare, 'wall');
+    assert.ok(!(await rises(bare)), 'without a measure the wall is plain');
+    await bare.close();
   });
 
   test('it is used by keyboard alone', async () => {
