@@ -121,6 +121,26 @@ describe('the page that shows a model', { skip: missing, timeout: 240000 }, () =
     await page.close();
   });
 
+  test('the section is drawn of visible parts alone', async () => {
+    const page = await open(plain);
+    await showOnly(page, 'inlet');
+    const inlet = (await picture(page)).model;
+    assert.ok(inlet > 0);
+    await press(page, 'z');  // through the middle, far from the inlet: one side keeps all of it, the other nothing
+    const side = (await picture(page)).model;
+    await press(page, 'v');
+    const other = (await picture(page)).model;
+    assert.deepEqual([side, other].sort((a, b) => a - b), [0, inlet]);
+    await (await box(page, 'inlet')).click();
+    await (await box(page, 'wall')).click();
+    await page.$eval('input[aria-label="Transparency of wall"]', (slider) => { slider.value = '100'; slider.dispatchEvent(new Event('input')); });
+    assert.ok((await picture(page)).model > 0, 'the section of a visible part, however transparent');
+    await press(page, 'c');
+    assert.equal((await picture(page)).model, 0);
+    assert.deepEqual(page.problems, []);
+    await page.close();
+  });
+
   test('the smallest distance of two chosen structures is shown', async () => {
     const page = await open(plain);
     const { manifest } = makeViewerSample();
