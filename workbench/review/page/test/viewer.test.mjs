@@ -66,6 +66,7 @@ describe('the page that shows a model', { skip: missing, timeout: 240000 }, () =
   test('it opens without an error or a request, and says what it holds', async () => {
     const page = await open(plain);
     assert.equal(await text(page, '#case-name'), 'Case 7, middle cerebral artery');
+    assert.equal(await text(page, '#case-provenance'), 'project carotid, cfd, accepted by A. Kern, model 1a2b3c4d5e6f');
     assert.match(await text(page, '#case-text'), /how far is the tumour/);
     assert.match(await text(page, '#case-holds'), /surface, neighbours; no voxels/);
     const names = await page.$$eval('#structures label', (all) => all.map((one) => one.textContent));
@@ -223,12 +224,14 @@ describe('the page that shows a model', { skip: missing, timeout: 240000 }, () =
 
   test('hostile texts appear as text and run nothing', async () => {
     const evil = makeViewerSample({ colour: true });
-    Object.assign(evil.manifest, { title: EVIL[0], text: EVIL[3], purpose: EVIL[1], program: EVIL[2], holds: EVIL });
+    Object.assign(evil.manifest, { title: EVIL[0], text: EVIL[3], purpose: EVIL[1], provenance: EVIL[0] + EVIL[3], program: EVIL[2], holds: EVIL });
     evil.manifest.structures.forEach((one, i) => { one.name = EVIL[i + 1]; });
     evil.manifest.states[0].patches.forEach((patch, i) => { patch.name = EVIL[i]; });
     Object.assign(evil.manifest.colour, { label: EVIL[1], unit: EVIL[0] });
     const page = await open(writePage(tools.folder, 'evil.html', template, evil));
     assert.equal(await text(page, '#case-name'), EVIL[0]);
+    const line = await text(page, '#case-provenance');
+    assert.ok(line.startsWith(EVIL[0]) && line.length === 200, 'cut, without a way to the rest');
     const all = await text(page, 'body');
     assert.ok(all.includes('left ⟨U+202E⟩ right'), 'made visible');
     assert.ok(!all.includes('\u202e'), `unseen near ${all.slice(Math.max(0, all.indexOf('\u202e') - 60)).slice(0, 90)}`);
