@@ -25,13 +25,14 @@ constexpr std::size_t kModel = 0, kVessel = 1;  ///< nodes
 using Rgba = std::array<double, 4>;
 
 /// Of neighbours, one after the other, apart for any colour vision (hues of Okabe and Ito); seen
-/// through, as the vessel matters.
-constexpr std::array<Rgba, 6> kNeighbourColours = {{{0.35, 0.35, 0.55, 0.4},
-                                                    {0.79, 0.35, 0.02, 0.4},
-                                                    {0.00, 0.35, 0.17, 0.4},
-                                                    {0.60, 0.19, 0.38, 0.4},
-                                                    {0.09, 0.46, 0.81, 0.4},
-                                                    {0.87, 0.77, 0.05, 0.4}}};
+/// through, as the vessel matters. Linear values, as GLB asks for, of NEIGHBOURS in
+/// workbench/review/page/src/colours.js: a structure has one colour in a GLB file and on a page.
+constexpr std::array<Rgba, 6> kNeighbourColours = {{{0.275, 0.275, 0.527, 0.4},
+                                                    {0.665, 0.112, 0.000, 0.4},
+                                                    {0.000, 0.342, 0.171, 0.4},
+                                                    {0.604, 0.191, 0.386, 0.4},
+                                                    {0.093, 0.456, 0.815, 0.4},
+                                                    {0.871, 0.776, 0.054, 0.4}}};
 
 Rgba colour_of(PatchKind kind) {
     switch (kind) {

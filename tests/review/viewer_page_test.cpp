@@ -87,6 +87,7 @@ SCENARIO("The page of a model has the vessel, its neighbours and their distances
     CHECK(page.find("id=\"blob-chunk-0\"") != std::string::npos);
     CHECK_FALSE(shown.contains("colour"));
     CHECK_FALSE(shown.contains("slices"));
+    CHECK_FALSE(shown.contains("provenance"));
 }
 
 SCENARIO("The page of a model has a chosen measure with its range and colours",
@@ -150,9 +151,10 @@ SCENARIO("The page of a model has slices of the image only where they are asked 
 SCENARIO("Texts of a case cannot leave the data of the page that shows it", "[review][viewer]") {
     if (!has_page()) return;
     const std::string hostile = "</script><script>alert(1)</script>\xe2\x80\xa8&\"'";
-    const std::string page =
-        viewer_page({.surface = icosphere(5.0, 2)}, {.title = hostile, .text = hostile});
+    const std::string page = viewer_page(
+        {.surface = icosphere(5.0, 2)}, {.title = hostile, .text = hostile, .provenance = hostile});
     CHECK(page.find("alert(1)</script>") == std::string::npos);
+    CHECK(case_in(page)["provenance"] == hostile);
     CHECK(case_in(page)["title"] == hostile);
     CHECK(case_in(page)["text"] == hostile);
 }

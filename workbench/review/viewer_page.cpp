@@ -187,6 +187,7 @@ std::string viewer_page(const Scene& scene, const ViewerContents& contents,
         structures_of(scene, with_shares(surface_of(scene), contents.colour));
     PageGeometry geometry(box_of(structures));
     Json manifest = manifest_of(contents, scene);
+    if (!contents.provenance.empty()) manifest["provenance"] = contents.provenance;
     add_structures(structures, contents, geometry, manifest, progress.part(0.0, 0.3));
     manifest["distances"] = distances_json(structures, progress.part(0.3, 0.6));
     std::map<std::string, std::string> blobs;

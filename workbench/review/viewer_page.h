@@ -14,6 +14,7 @@ struct ViewerContents {
     std::string title;                   ///< of the case; empty: none
     std::string text;                    ///< about it; empty: none
     std::string purpose;                 ///< of the model, in words
+    std::string provenance;              ///< line as provenance() makes it; empty: none
     std::optional<ShownMeasure> colour;  ///< of the scene's surface, shown on its wall
     bool slices = false;                 ///< three slices of the image through the model, if any
 };

@@ -22,7 +22,7 @@ export function patchColours(patches) {
   });
 }
 
-/** Of other structures, one after the other: apart from each other and from a vessel's wall. */
+/** Of other structures, one after the other: apart from each other and from a vessel's wall. GLB files have the same, as kNeighbourColours of meshing/products/glb.cpp. */
 const NEIGHBOURS = [0x8f8fc0, 0xd55e00, 0x009e73, 0xcc79a7, 0x56b4e9, 0xf0e442];
 export const neighbourColour = (number) => NEIGHBOURS[number % NEIGHBOURS.length];
 

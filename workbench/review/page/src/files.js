@@ -30,7 +30,8 @@ export function bindFiles(button, input, verdicts, notice, done) {
       const report = verdicts.load(await file.text());
       const old = report.outdated.length ? ` ${report.outdated.length} left out, because the edits have changed since: ${report.outdated.map((title) => plain(title, 50)).join('; ')}.` : '';
       const missing = report.missing ? ` ${report.missing} for edits that this page does not hold.` : '';
-      notice(`Verdicts on ${report.taken} edits taken over.${old}${missing}`);
+      const overall = report.overallOutdated ? ' The overall verdict is left out, because it was not given on all edits as this page shows them.' : '';
+      notice(`Verdicts on ${report.taken} edits taken over.${old}${missing}${overall}`);
       done();
     } catch (error) {
       notice(error instanceof VerdictError ? error.message : 'The file cannot be read.');

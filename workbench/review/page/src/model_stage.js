@@ -16,6 +16,18 @@ function cutLines(surface, { origin, u, v }) {
   return corners;
 }
 
+/** Corners of a surface's visible triangles. @param {{index, groups}} surface @param parts one a group, in their order */
+export function visibleIndex({ index, groups }, parts) {
+  const shown = groups.filter((_, i) => parts[i].material.visible);
+  const corners = new Uint32Array(3 * shown.reduce((sum, { count }) => sum + count, 0));
+  let end = 0;
+  for (const { start, count } of shown) {
+    corners.set(index.subarray(3 * start, 3 * (start + count)), end);
+    end += 3 * count;
+  }
+  return corners;
+}
+
 export class ModelStage extends Drawing {
   constructor(canvas) {
     super(canvas);
@@ -44,11 +56,13 @@ export class ModelStage extends Drawing {
   /** @param part of `add` @param {{shown: boolean, transparency: number}} how transparency in [0, 1] */
   setPart(part, { shown, transparency }) {
     const { material } = part;
+    const toggled = material.visible !== shown;
     material.visible = shown;
     material.opacity = 1 - transparency;
     const through = transparency > 0;
     if (material.transparent !== through) { material.transparent = through; material.depthWrite = !through; material.needsUpdate = true; }
-    this.showCuts();
+    if (toggled) this.showCuts();  // not at each step of a slider: a cut goes through all triangles
+    else this.redraw();
   }
 
   /** Moves the plane that cuts the model away on its side. @param change of `clip`: on, axis 0-2, at [mm], flipped */
@@ -62,7 +76,7 @@ export class ModelStage extends Drawing {
     this.showCuts();
   }
 
-  /** Lines where the plane cuts what is shown: an open shell alone hardly shows its section. */
+  /** Lines where the plane cuts visible parts: an open shell alone hardly shows its section. */
   showCuts() {
     for (const line of this.cuts.children) { line.geometry.dispose(); line.material.dispose(); }
     this.cuts.clear();
@@ -70,8 +84,10 @@ export class ModelStage extends Drawing {
     if (on) {
       const { u, v } = ORTHOGONAL.find((plane) => plane.axis === axis);
       const origin = [0, 1, 2].map((k) => (k === axis ? at : 0));
-      for (const { surface } of this.structures.filter(({ parts }) => parts.some(({ material }) => material.visible))) {
-        const geometry = new BufferGeometry().setAttribute('position', new Float32BufferAttribute(cutLines(surface, { origin, u, v }), 3));
+      for (const { surface, parts } of this.structures) {
+        const index = visibleIndex(surface, parts);
+        if (!index.length) continue;
+        const geometry = new BufferGeometry().setAttribute('position', new Float32BufferAttribute(cutLines({ ...surface, index }, { origin, u, v }), 3));
         this.cuts.add(new LineSegments(geometry, new LineBasicMaterial({ color: getComputedStyle(this.canvas).color })));
       }
     }

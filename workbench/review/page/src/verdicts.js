@@ -101,38 +101,47 @@ export class Verdicts extends EventTarget {
     return counts;
   }
 
-  /** The value of verdicts.json; edits without anything said are left out. */
+  /** The value of verdicts.json. An overall verdict holds for the edits that it lists: then all are, else those something is said about. */
   toFile() {
     const { manifest } = this;
-    const edits = manifest.edits.filter((edit) => !isEmpty(this.of(edit.id))).map((edit) => {
+    const written = this.now().toISOString();
+    const listed = ({ id }) => this.overall.verdict !== 'none' || !isEmpty(this.of(id));
+    const edits = manifest.edits.filter(listed).map((edit) => {
       const { verdict, comment, time, pins, distances } = this.of(edit.id);
-      return { edit: edit.id, revision: edit.revision, hash: edit.hash, verdict, comment, time, pins, distances };
+      return { edit: edit.id, revision: edit.revision, hash: edit.hash, verdict, comment, time: time || written, pins, distances };
     });
     return { format: 'vesselbench-verdicts', version: 1, program: manifest.program,
              project: { id: manifest.project.id, name: manifest.project.name }, chain_head: manifest.chainHead,
-             reviewer: this.reviewer, written: this.now().toISOString(), overall: this.overall, edits };
+             reviewer: this.reviewer, written, overall: this.overall, edits };
   }
 
   /**
-   * Takes over a saved file or draft. Entries for another revision of an edit are left out.
-   * @returns {{taken: number, outdated: string[], missing: number}} outdated: titles of edits that have changed since
+   * Takes over a saved file or draft. Entries for another revision of an edit are left out, as is an overall verdict on other
+   * edits than this page's: saved again, it would hold for edits that it was not given on. Its comment is kept.
+   * @returns {{taken: number, outdated: string[], missing: number, overallOutdated: boolean}} outdated: titles of edits that have changed since
    * @throws {VerdictError} if it is not a verdict file, or another project's
    */
   load(text) {
     const file = readVerdicts(text);
     if (file.project.id !== this.manifest.project.id)
       throw new VerdictError(`This file belongs to another project: ${file.project.name || file.project.id}.`);
-    const report = { taken: 0, outdated: [], missing: 0 };
-    for (const { edit: id, revision, hash, ...entry } of file.edits) {
+    const report = { taken: 0, outdated: [], missing: 0, overallOutdated: file.overall.verdict !== 'none' && !this.listsAll(file.edits) };
+    for (const { edit: id, revision, hash, ...entry } of file.edits.filter((one) => !isEmpty(one))) {
       const edit = this.manifest.edits.find((one) => one.id === id);
       if (!edit) ++report.missing;
       else if (edit.revision !== revision || edit.hash !== hash) report.outdated.push(edit.title);
       else { this.entries.set(id, entry); ++report.taken; }
     }
     this.reviewer = file.reviewer;
-    this.overall = file.overall;
+    this.overall = report.overallOutdated ? { ...file.overall, verdict: 'none' } : file.overall;
     this.dispatchEvent(new Event('change'));
     return report;
+  }
+
+  /** Whether a file's entries are on all edits of the page as the page shows them. */
+  listsAll(entries) {
+    const seen = new Map(entries.map((entry) => [entry.edit, entry]));
+    return this.manifest.edits.every(({ id, revision, hash }) => seen.get(id)?.revision === revision && seen.get(id).hash === hash);
   }
 }
 

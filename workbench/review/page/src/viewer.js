@@ -33,6 +33,8 @@ function manifestOfPage() {
 function showCase(manifest) {
   const holds = manifest.holds.map((name) => (KNOWN.includes(name) ? name : `“${plain(name)}”`)).join(', ');
   fill(byId('case-name'), foreign(manifest.title || 'Vessel model', { limit: 90 }));
+  byId('case-provenance').hidden = !manifest.provenance;
+  fill(byId('case-provenance'), foreign(manifest.provenance, { limit: 200, brief: true }));
   fill(byId('case-facts'), foreign(manifest.purpose, { limit: 60, brief: true }), ' · lengths in mm · vesselbench ', foreign(manifest.program, { limit: 20, brief: true }), ` · written ${moment(manifest.written).slice(0, 30)}`);
   byId('case-text').hidden = !manifest.text;
   fill(byId('case-text'), foreign(manifest.text, { limit: 400 }));

@@ -31,7 +31,7 @@ export function readViewer(json) {
     .map((one) => ({ name: text(one.name), kind: text(one.kind), state: count(one.state) })).filter((one) => one.state < geometry.states.length);
   const source = object(raw.source);
   return {
-    program: text(raw.program), written: text(raw.written), title: text(raw.title), text: text(raw.text), purpose: text(raw.purpose),
+    program: text(raw.program), written: text(raw.written), title: text(raw.title), text: text(raw.text), purpose: text(raw.purpose), provenance: text(raw.provenance),
     holds: list(raw.holds).map(text), ...geometry, structures, colour: readColour(object(raw.colour)),
     gaps: list(raw.distances).map(object).map((gap) => readGap(gap, structures.length)).filter(Boolean),
     patient: source.patient === true, slices: readSlices(raw.slices), slicesPlace: numbers(raw.slices_place, 3),

@@ -32,12 +32,38 @@ test('what is saved binds to edit, revision and hash, and comes back', () => {
   verdicts.addDistance(2, [0, 0, 0], [0, 3, 4]);
   verdicts.decideOverall('unsure', 'see pin');
   const file = verdicts.toFile();
-  assert.deepEqual(file.edits, [{ edit: 2, revision: 3, hash: 'h2', verdict: 'accept', comment: '', time: '2026-03-01T10:00:00.000Z',
+  assert.deepEqual(file.edits.slice(1), [{ edit: 2, revision: 3, hash: 'h2', verdict: 'accept', comment: '', time: '2026-03-01T10:00:00.000Z',
     pins: [{ place: [1, 2, 3], text: 'here' }], distances: [{ from: [0, 0, 0], to: [0, 3, 4], mm: 5, text: '' }] }]);
   assert.deepEqual([file.chain_head, file.reviewer, file.overall.verdict], ['ab', { name: 'Dr B', role: 'radiologist' }, 'unsure']);
   const other = make();
   assert.equal(other.load(JSON.stringify(file)).taken, 1);
   assert.deepEqual(other.toFile(), file);
+});
+
+test('an overall verdict lists every edit as it was seen; none is judged by that', () => {
+  const verdicts = make();
+  verdicts.decide(2, 'accept');
+  assert.deepEqual(verdicts.toFile().edits.map((entry) => entry.edit), [2]);
+  verdicts.decideOverall('accept', '');
+  const file = verdicts.toFile();
+  assert.deepEqual(file.edits[0], { edit: 1, revision: 1, hash: 'h1', verdict: 'none', comment: '', time: file.written, pins: [], distances: [] });
+  assert.equal(file.edits.length, 2);
+  const other = make();
+  assert.deepEqual(other.load(JSON.stringify(file)), { taken: 1, outdated: [], missing: 0, overallOutdated: false });
+  assert.deepEqual([other.counts().none, other.overall.verdict, other.toFile().edits.length], [1, 'accept', 2]);
+  other.decideOverall('none', '');
+  assert.deepEqual(other.toFile().edits.map((entry) => entry.edit), [2]);
+});
+
+test('an overall verdict on other edits is not taken over', () => {
+  const verdicts = make();
+  verdicts.decideOverall('accept', 'fine');
+  const file = verdicts.toFile();
+  const newer = make({ edits: [{ id: 1, revision: 2, hash: 'h9', title: 'One' }, { id: 2, revision: 3, hash: 'h2', title: 'Two' }] });
+  assert.deepEqual(newer.load(JSON.stringify(file)), { taken: 0, outdated: [], missing: 0, overallOutdated: true });
+  assert.deepEqual([newer.overall, newer.toFile().edits], [{ verdict: 'none', comment: 'fine' }, []]);
+  const partial = make();
+  assert.equal(partial.load(JSON.stringify({ ...file, edits: file.edits.slice(1) })).overallOutdated, true);
 });
 
 test('another project is refused, newer revisions are left out', () => {
@@ -47,7 +73,7 @@ test('another project is refused, newer revisions are left out', () => {
   const text = JSON.stringify(verdicts.toFile());
   assert.throws(() => make({ project: { id: 'q', name: '' } }).load(text), /another project/);
   const newer = make({ edits: [{ id: 1, revision: 2, hash: 'h9', title: 'One' }] });
-  assert.deepEqual(newer.load(text), { taken: 0, outdated: ['One'], missing: 1 });
+  assert.deepEqual(newer.load(text), { taken: 0, outdated: ['One'], missing: 1, overallOutdated: false });
 });
 
 test('hostile files are refused', () => {

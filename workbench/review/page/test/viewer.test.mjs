@@ -12,10 +12,10 @@ const EVIL = ['<script>window.harmed = 1</script>', '"><img src=x onerror="windo
 const press = async (page, ...keys) => { for (const key of keys) await page.keyboard.press(key); };
 const drawn = (page) => page.waitForFunction(() => performance.getEntriesByName('viewer:first-picture').length > 0, { timeout: 60000 });
 
-/** Runs in the page after two frames: how many pixels of the picture are not its ground, and the mean of their colours. */
-async function picture(page) {
+/** After two frames: how many pixels of the picture are not its ground, and the mean of their colours. @param rows of it, in shares from its upper edge */
+async function picture(page, rows = [0, 1]) {
   await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
-  return page.evaluate(() => {
+  return page.evaluate(([first, last]) => {
     const view = document.getElementById('canvas');
     const canvas = Object.assign(document.createElement('canvas'), { width: view.width, height: view.height });
     const context = canvas.getContext('2d');
@@ -23,13 +23,20 @@ async function picture(page) {
     const { data } = context.getImageData(0, 0, canvas.width, canvas.height);
     let model = 0;
     const sum = [0, 0, 0];
-    for (let i = 0; i < data.length; i += 4) {
+    const row = (share) => 4 * canvas.width * Math.round(share * canvas.height);
+    for (let i = row(first); i < row(last); i += 4) {
       if ([0, 1, 2].every((k) => Math.abs(data[i + k] - data[k]) < 4)) continue;
       ++model;
       for (let k = 0; k < 3; ++k) sum[k] += data[i + k];
     }
     return { model, colour: sum.map((x) => x / Math.max(1, model)) };
-  });
+  }, rows);
+}
+
+/** Whether the wall is coloured by its height, on the sample's ramp: yellow above, violet below. */
+async function rises(page) {
+  const [[red, , blue], [, lowGreen, lowBlue]] = [(await picture(page, [0, 0.3])).colour, (await picture(page, [0.7, 1])).colour];
+  return red > blue + 30 && lowBlue > lowGreen + 30;
 }
 
 describe('the page that shows a model', { skip: missing, timeout: 240000 }, () => {
@@ -50,9 +57,16 @@ describe('the page that shows a model', { skip: missing, timeout: 240000 }, () =
   };
   const box = (page, name) => page.evaluateHandle((label) => [...document.querySelectorAll('#structures label')].find((one) => one.textContent === label).querySelector('input'), name);
 
+  /** Hides all parts but one, and the names. */
+  const showOnly = async (page, name) => {
+    await press(page, 'n');
+    for (const other of ['wall', 'inlet', 'outlet 1', 'outlet 2', 'tumour', 'optic nerve'].filter((one) => one !== name)) await (await box(page, other)).click();
+  };
+
   test('it opens without an error or a request, and says what it holds', async () => {
     const page = await open(plain);
     assert.equal(await text(page, '#case-name'), 'Case 7, middle cerebral artery');
+    assert.equal(await text(page, '#case-provenance'), 'project carotid, cfd, accepted by A. Kern, model 1a2b3c4d5e6f');
     assert.match(await text(page, '#case-text'), /how far is the tumour/);
     assert.match(await text(page, '#case-holds'), /surface, neighbours; no voxels/);
     const names = await page.$$eval('#structures label', (all) => all.map((one) => one.textContent));
@@ -108,6 +122,26 @@ describe('the page that shows a model', { skip: missing, timeout: 240000 }, () =
     await page.close();
   });
 
+  test('the section is drawn of visible parts alone', async () => {
+    const page = await open(plain);
+    await showOnly(page, 'inlet');
+    const inlet = (await picture(page)).model;
+    assert.ok(inlet > 0);
+    await press(page, 'z');  // through the middle, far from the inlet: one side keeps all of it, the other nothing
+    const side = (await picture(page)).model;
+    await press(page, 'v');
+    const other = (await picture(page)).model;
+    assert.deepEqual([side, other].sort((a, b) => a - b), [0, inlet]);
+    await (await box(page, 'inlet')).click();
+    await (await box(page, 'wall')).click();
+    await page.$eval('input[aria-label="Transparency of wall"]', (slider) => { slider.value = '100'; slider.dispatchEvent(new Event('input')); });
+    assert.ok((await picture(page)).model > 0, 'the section of a visible part, however transparent');
+    await press(page, 'c');
+    assert.equal((await picture(page)).model, 0);
+    assert.deepEqual(page.problems, []);
+    await page.close();
+  });
+
   test('the smallest distance of two chosen structures is shown', async () => {
     const page = await open(plain);
     const { manifest } = makeViewerSample();
@@ -154,12 +188,14 @@ describe('the page that shows a model', { skip: missing, timeout: 240000 }, () =
     assert.match(await text(page, '#legend-text'), /Colour of the wall: Height from .* to .* mm/);
     assert.match(await text(page, '#case-holds'), /vertex measure, image slices; grey values/);
     assert.equal((await page.$$('#slices canvas')).length, 3);
-    for (const name of ['tumour', 'optic nerve']) await (await box(page, name)).click();
-    await press(page, 'n');
-    const [top, bottom] = [(await picture(page)).colour, [colour.colours[3], colour.colours[0]]];
-    assert.ok(top[1] > bottom[1][1], 'the ramp is on the wall');
+    await showOnly(page, 'wall');
+    assert.ok(await rises(page), 'the ramp is on the wall');
     assert.deepEqual(page.problems, []);
     await page.close();
+    const bare = await open(plain);
+    await showOnly(bare, 'wall');
+    assert.ok(!(await rises(bare)), 'without a measure the wall is plain');
+    await bare.close();
   });
 
   test('it is used by keyboard alone', async () => {
@@ -188,12 +224,14 @@ describe('the page that shows a model', { skip: missing, timeout: 240000 }, () =
 
   test('hostile texts appear as text and run nothing', async () => {
     const evil = makeViewerSample({ colour: true });
-    Object.assign(evil.manifest, { title: EVIL[0], text: EVIL[3], purpose: EVIL[1], program: EVIL[2], holds: EVIL });
+    Object.assign(evil.manifest, { title: EVIL[0], text: EVIL[3], purpose: EVIL[1], provenance: EVIL[0] + EVIL[3], program: EVIL[2], holds: EVIL });
     evil.manifest.structures.forEach((one, i) => { one.name = EVIL[i + 1]; });
     evil.manifest.states[0].patches.forEach((patch, i) => { patch.name = EVIL[i]; });
     Object.assign(evil.manifest.colour, { label: EVIL[1], unit: EVIL[0] });
     const page = await open(writePage(tools.folder, 'evil.html', template, evil));
     assert.equal(await text(page, '#case-name'), EVIL[0]);
+    const line = await text(page, '#case-provenance');
+    assert.ok(line.startsWith(EVIL[0]) && line.length === 200, 'cut, without a way to the rest');
     const all = await text(page, 'body');
     assert.ok(all.includes('left ⟨U+202E⟩ right'), 'made visible');
     assert.ok(!all.includes('\u202e'), `unseen near ${all.slice(Math.max(0, all.indexOf('\u202e') - 60)).slice(0, 90)}`);

@@ -59,7 +59,7 @@ export function makeViewerSample({ h = 0.6, colour = false, slices = false } = {
   const place = [3.2, 3.1, 0.4];
   const manifest = {
     format: 'vesselbench-viewer', version: 1, program: '0.2.0', written: '2026-03-03T08:00:00Z', title: 'Case 7, middle cerebral artery',
-    text: 'An aneurysm at the bend; how far is the tumour from the parent artery?', purpose: 'flow simulation (cfd)', units: 'mm', source: { patient: true },
+    text: 'An aneurysm at the bend; how far is the tumour from the parent artery?', purpose: 'flow simulation (cfd)', provenance: 'project carotid, cfd, accepted by A. Kern, model 1a2b3c4d5e6f', units: 'mm', source: { patient: true },
     holds: ['surface', 'neighbours', ...(colour ? ['vertex measure'] : []), ...(slices ? ['image slices'] : [])],
     structures, distances, ...(colour ? { colour: colourOf(packer, meshes[0], added[0]) } : {}),
     ...(slices ? { slices: slicesOf(packer, place), slices_place: place } : {}),
