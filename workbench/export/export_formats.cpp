@@ -60,7 +60,9 @@ void export_glb(const Scene& scene, const std::string& path, const ExportOptions
 
 void export_page(const Scene& scene, const std::string& path, const ExportOptions& options,
                  const Progress& progress) {
-    const std::string page = viewer_page(scene, options.shown, progress.part(0.0, 0.9));
+    ViewerContents shown = options.shown;
+    shown.provenance = options.provenance;
+    const std::string page = viewer_page(scene, shown, progress.part(0.0, 0.9));
     write_file(path, page, progress.part(0.9, 1.0));
 }
 
