@@ -227,7 +227,9 @@ SCENARIO("The whole model is judged without a file", "[review]") {
     const Review seen = review_of(session);
     CHECK(status_of_whole(seen) == ReviewStatus::Open);
     WHEN("it is rejected") {
-        enter_overall(session, kern, seen, Verdict::Reject, "a branch is missing");
+        CHECK(imported_words(
+                  enter_overall(session, kern, seen, Verdict::Reject, "a branch is missing")) ==
+              "one on the whole model of A. Kern");
         const Review review = review_of(session);
         CHECK(status_of_whole(review) == ReviewStatus::Rejected);
         REQUIRE(review.overall.size() == 1);

@@ -95,7 +95,7 @@ void review_project(const ReviewArguments& arguments, const Progress& progress) 
         remark(bare_name(file) + ": " + imported_words(done));
         imported.push_back({{"file", bare_name(file)},
                             {"reviewer", done.verdicts.reviewer},
-                            {"verdicts", done.verdicts.edits.size()},
+                            {"verdicts", done.verdicts.said()},
                             {"outdated", done.outdated},
                             {"known", done.known},
                             {"signature", signature_json(done.signature)}});

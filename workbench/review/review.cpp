@@ -73,12 +73,6 @@ void add_verdicts(const std::vector<EnteredVerdicts>& files, ReviewedEdit& edit)
     edit.status = status_of(edit.verdicts);
 }
 
-/// True of an edit that is listed only because its reviewer saw it, for a verdict on the whole.
-bool says_nothing(const EditVerdict& verdict) {
-    return verdict.verdict == Verdict::None && verdict.comment.empty() && verdict.pins.empty() &&
-           verdict.distances.empty();
-}
-
 void add_marks(const std::vector<EnteredVerdicts>& files, ReviewedEdit& edit) {
     std::map<std::string, const EditVerdict*> newest;
     for (const auto& [file, signature] : files)

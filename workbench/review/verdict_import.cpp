@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -121,7 +122,12 @@ ImportedVerdicts enter_now(Session& session, const Reviewer& reviewer, VerdictFi
 std::string imported_words(const ImportedVerdicts& imported) {
     const std::string by = printable(imported.verdicts.reviewer);
     if (imported.known) return "these verdicts of " + by + " are entered already";
-    std::string words = counted(imported.verdicts.edits.size(), "verdict") + " of " + by;
+    const VerdictFile& verdicts = imported.verdicts;
+    std::vector<std::string> what;
+    if (verdicts.said() > 0 || verdicts.overall == Verdict::None)
+        what.push_back(counted(verdicts.said(), "verdict"));
+    if (verdicts.overall != Verdict::None) what.emplace_back("one on the whole model");
+    std::string words = enumerated(what) + " of " + by;
     if (imported.signature.state != SignatureState::None)
         words += ", " + printable(signature_words(imported.signature));
     if (imported.outdated > 0)

@@ -20,7 +20,8 @@ struct ImportedVerdicts {
     std::size_t outdated = 0;  ///< verdicts on what is another edit or result now
 };
 
-/// "3 verdicts of A. Kern, signed by kern@clinic.example, 1 of them on what has changed since"
+/// "3 verdicts and one on the whole model of A. Kern, signed by kern@clinic.example, 1 of them on
+/// what has changed since"
 [[nodiscard]] std::string imported_words(const ImportedVerdicts& imported);
 
 /// Enters a reviewer's verdicts into the project, once, with the signature beside the file if there

@@ -231,6 +231,15 @@ VerdictFile verdicts_from_file(const std::filesystem::path& file) {
     return verdicts_from_text(verdict_text_in(file), bare_name(file));
 }
 
+bool says_nothing(const EditVerdict& verdict) {
+    return verdict.verdict == Verdict::None && verdict.comment.empty() && verdict.pins.empty() &&
+           verdict.distances.empty();
+}
+
+std::size_t VerdictFile::said() const {
+    return edits.size() - static_cast<std::size_t>(std::ranges::count_if(edits, says_nothing));
+}
+
 std::string verdict_text_in(const std::filesystem::path& file) {
     std::error_code error;
     const std::uintmax_t size = std::filesystem::file_size(file, error);

@@ -40,6 +40,9 @@ struct EditVerdict {
     std::vector<ReviewedDistance> distances;
 };
 
+/// True of an edit that is listed only because its reviewer saw it, for a verdict on the whole.
+[[nodiscard]] bool says_nothing(const EditVerdict& verdict);
+
 /// A file of verdicts, as the review page saves it (docs/review.md).
 struct VerdictFile {
     std::string program;
@@ -50,6 +53,9 @@ struct VerdictFile {
     Verdict overall = Verdict::None;
     std::string overall_comment;
     std::vector<EditVerdict> edits;
+
+    /// Number of edits of which it says something.
+    [[nodiscard]] std::size_t said() const;
 };
 
 /// [bytes] of a file of verdicts.
