@@ -29,7 +29,9 @@ Json full_statement() {
                           "loaded": false}],
         "edits": [{"edit": 2, "operation": "extract-surface"},
                   {"edit": 3, "operation": "smooth", "accuracy": {"largest_deviation_mm": 0.25}},
-                  {"edit": 4, "operation": "remesh", "accuracy": {"largest_deviation_mm": 0.125}}],
+                  {"edit": 4, "operation": "remesh", "accuracy": {"largest_deviation_mm": 0.125}},
+                  {"edit": 5, "operation": "extrude-opening", "step": "openings",
+                   "accuracy": {"largest_deviation_mm": 12.0}}],
         "operators": ["Ada", "Bo"],
         "reviewers": [{"name": "A. Kern", "role": "radiologist"}],
         "exports": [{"file": "print.stl", "sha256": "cd"}]})");

@@ -262,6 +262,23 @@ SCENARIO("The whole model is judged without a file", "[review]") {
     }
 }
 
+SCENARIO("No verdict holds for an edit that has no result", "[review]") {
+    const std::string project = reviewed_project();
+    Session session = Session::open(project, options());
+    session.change_edit(2, {{"at", kTop}, {"reach", 4.0}, {"height", 0.75}});
+    const Review before = review_of(session);
+    CHECK_FALSE(before.edits.at(0).pending);
+    REQUIRE(before.edits.at(2).pending);
+    enter(session, project, verdicts_on(session, "A. Kern", Verdict::Accept));
+    CHECK(statuses(session).at(0) == ReviewStatus::Accepted);
+    CHECK(statuses(session).at(2) == ReviewStatus::Outdated);
+    THEN("nor when it has one") {
+        static_cast<void>(session.scene());
+        CHECK_FALSE(review_of(session).edits.at(2).pending);
+        CHECK(statuses(session).at(2) == ReviewStatus::Outdated);
+    }
+}
+
 SCENARIO("A draft becomes a verdict with the marks that were given before", "[review]") {
     const std::string project = reviewed_project();
     Session session = Session::open(project, options());

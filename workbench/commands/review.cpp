@@ -48,7 +48,8 @@ void print_review(const Review& review) {
         rows.push_back({std::to_string(edit.edit.id) + "." + std::to_string(edit.edit.revision),
                         to_string(edit.place.step) +
                             (edit.place.variant.empty() ? "" : " (" + edit.place.variant + ")"),
-                        edit.operation, to_string(edit.status), verdict_list(edit.verdicts)});
+                        edit.operation, to_string(edit.status) + (edit.pending ? ", pending" : ""),
+                        verdict_list(edit.verdicts)});
     std::cout << as_columns(rows);
     if (!review.overall.empty())
         std::cout << printable("the whole: " + verdict_list(review.overall)) << "\n";
@@ -65,8 +66,9 @@ Json write_page(Session& session, const ReviewArguments& arguments, const Progre
     if (std::filesystem::exists(arguments.page) && session.is_source(arguments.page))
         throw UsageError(bare_name(arguments.page) + " is a file that the case was made from");
     const std::string variant = variant_meant(arguments.variant, *session.snapshot()->history);
-    const ReviewPage page =
-        review_page(session, variant, find_operation, images_of(arguments.images), progress);
+    static_cast<void>(session.scene(variant, progress.part(0.0, 0.5)));  // runs pending edits
+    const ReviewPage page = review_page(session, variant, find_operation,
+                                        images_of(arguments.images), progress.part(0.5, 1.0));
     PendingFiles files;
     (void)files.add_text(arguments.page, page.html);
     files.commit();

@@ -38,6 +38,10 @@ void print_cohort(const CohortAgreement& cohort) {
     const std::vector<std::string> names(cohort.reviewers.begin(), cohort.reviewers.end());
     std::cout << counted(cohort.projects, "project") << ", " << counted(names.size(), "reviewer")
               << (names.empty() ? "" : ": " + printable(joined(names))) << "\n\n";
+    if (cohort.all.agreement.units == 0) {
+        std::cout << "no edit has decisions of two reviewers\n";
+        return;
+    }
     std::vector<std::vector<std::string>> rows = {
         {"operation", "edits", "values", "unsure", "agreement", "alpha", "95 % interval"}};
     for (const auto& [operation, on] : cohort.operations) rows.push_back(row_of(operation, on));

@@ -42,7 +42,7 @@ void write_page(Session& session, const std::string& purpose, const std::filesys
         files.commit();
         tell(std::string(kPage) +
              " is the page for reviewers; `review project.vbench --import verdicts.json` enters "
-             "what they send back, then --resume writes the products");
+             "what they send back, then the same command with --resume writes the products");
     } catch (const DiagnosedFailure& failure) {
         for (const Diagnostic& diagnostic : failure.diagnostics()) tell.warn(diagnostic);
     }

@@ -96,10 +96,24 @@ Json decided_json(const Operation* operation, const Arguments& resolved, const A
     return rows;
 }
 
+Json figure_json(const char* name, const std::string& value, const char* unit) {
+    return {{"name", name}, {"value", value}, {"unit", unit}};
+}
+
+/// Of the model that an edit made, not of what it changed.
+Json model_json(const SurfaceChange& change) {
+    Json rows = Json::array();
+    if (change.volume_after)
+        rows.push_back(figure_json("Volume", formatted(*change.volume_after), "mm\u00B3"));
+    if (change.triangles_after > 0)
+        rows.push_back(figure_json("Triangles", std::to_string(change.triangles_after), ""));
+    return rows;
+}
+
 Json figures_json(const ResultRecord& result) {
     Json rows = Json::array();
     const auto add = [&](const char* name, const std::string& value, const char* unit) {
-        rows.push_back({{"name", name}, {"value", value}, {"unit", unit}});
+        rows.push_back(figure_json(name, value, unit));
     };
     const SurfaceChange& change = result.change;
     if (change.volume_before) add("Volume before", formatted(*change.volume_before), "mm\u00B3");
@@ -193,7 +207,8 @@ Json source_json(const Session& session, const std::vector<LogEntry>& log) {
 
 Json report_json(const std::vector<LogEntry>& log) {
     for (auto entry = log.rbegin(); entry != log.rend(); ++entry)
-        if (entry->status == EditStatus::Done && entry->result) return figures_json(*entry->result);
+        if (entry->status == EditStatus::Done && entry->result)
+            return model_json(entry->result->change);
     return Json::array();
 }
 

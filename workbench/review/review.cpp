@@ -67,7 +67,7 @@ void add_verdicts(const std::vector<EnteredVerdicts>& files, ReviewedEdit& edit)
                                      .verdict = verdict.verdict,
                                      .comment = verdict.comment,
                                      .revision = verdict.edit.revision,
-                                     .outdated = verdict.hash != edit.hash,
+                                     .outdated = edit.pending || verdict.hash != edit.hash,
                                      .signature = signature});
     edit.verdicts = list_of(newest);
     edit.status = status_of(edit.verdicts);
@@ -82,7 +82,7 @@ void add_marks(const std::vector<EnteredVerdicts>& files, ReviewedEdit& edit) {
             if (found == nullptr || found->time <= verdict.time) found = &verdict;
         }
     for (const auto& [reviewer, verdict] : newest) {
-        const bool outdated = verdict->hash != edit.hash;
+        const bool outdated = edit.pending || verdict->hash != edit.hash;
         for (const Pin& pin : verdict->pins)
             edit.pins.push_back({.reviewer = reviewer, .pin = pin, .outdated = outdated});
         for (const ReviewedDistance& distance : verdict->distances)
@@ -189,7 +189,8 @@ Review review_of(const ProjectFile& project, const std::vector<LogEntry>& log,
             review.edits.emplace_back(ReviewedEdit{.edit = entry.edit.edit,
                                                    .place = entry.edit.place,
                                                    .operation = entry.edit.operation,
-                                                   .hash = edit_hash(project, entry)});
+                                                   .hash = edit_hash(project, entry),
+                                                   .pending = entry.status == EditStatus::Pending});
         add_verdicts(files, edit);
         add_marks(files, edit);
     }

@@ -54,6 +54,7 @@ struct ReviewedEdit {
     EditPlace place;
     std::string operation;
     std::string hash;
+    bool pending = false;  ///< it has no result yet: no verdict holds
     ReviewStatus status = ReviewStatus::Open;
     std::vector<GivenVerdict> verdicts;    ///< by reviewer, ascending
     std::vector<GivenPin> pins;            ///< by reviewer, also of those who have not decided

@@ -31,14 +31,22 @@ export async function askOverall(verdicts) {
   fill(byId('overall-counts'), `${counts.accept} accepted, ${counts.reject} rejected, ${counts.unsure} unsure, ${counts.none} open.`);
   byId('overall-problem').textContent = '';
   byId('overall-comment').value = verdicts.overall.comment;
-  document.querySelector(`input[name=overall][value=${verdicts.overall.verdict}]`).checked = true;
+  const current = document.querySelector(`input[name=overall][value=${verdicts.overall.verdict}]`);
+  current.checked = true;
+  let warned = false;
   const chosen = () => document.querySelector('input[name=overall]:checked').value;
   byId('overall-ok').onclick = (event) => {
-    if (chosen() !== 'reject' || byId('overall-comment').value.trim()) return;
+    const unreasoned = chosen() === 'reject' && !byId('overall-comment').value.trim();
+    const contradicts = chosen() === 'accept' && counts.reject + counts.none > 0 && !warned;
+    if (!unreasoned && !contradicts) return;
     event.preventDefault();
-    byId('overall-problem').textContent = 'A rejection needs a reason.';
-    byId('overall-comment').focus();
+    if (unreasoned) byId('overall-comment').focus();
+    byId('overall-problem').textContent = unreasoned ? 'A rejection needs a reason.'
+      : `${counts.reject} rejected and ${counts.none} open: press again to accept the whole all the same.`;
+    warned = contradicts;
   };
-  if (await ask(byId('overall')) !== 'ok') return false;
+  const answer = ask(byId('overall'));
+  current.focus();
+  if (await answer !== 'ok') return false;
   return verdicts.decideOverall(chosen(), byId('overall-comment').value);
 }

@@ -43,7 +43,8 @@ async function open({ edit, item }, { list, work, panel, manifest }) {
 function showProgress(verdicts, kept) {
   const counts = verdicts.counts();
   const open = verdicts.unsaved ? ` · ${verdicts.unsaved} unsaved ${verdicts.unsaved === 1 ? 'change' : 'changes'}` : '';
-  byId('progress').textContent = `${verdicts.manifest.edits.length - counts.none} of ${verdicts.manifest.edits.length} judged${open}`;
+  const whole = { accept: ' · the whole: accepted', reject: ' · the whole: rejected', unsure: ' · the whole: unsure' }[verdicts.overall.verdict] ?? '';
+  byId('progress').textContent = `${verdicts.manifest.edits.length - counts.none} of ${verdicts.manifest.edits.length} judged${whole}${open}`;
   byId('save').classList.toggle('waiting', verdicts.unsaved > 0);
   if (verdicts.unsaved && !kept) notice('This browser keeps no draft of this page. Save the verdicts before you close it.');
 }
@@ -86,6 +87,7 @@ function start() {
   const work = new Workplace(manifest, new Pool(manifest), verdicts, say);
   let asked = false;
   const panel = new VerdictPanel(byId('verdict'), verdicts, say, () => { if (!asked) { asked = true; askReviewer(verdicts); } });
+  work.onmark = (kind) => panel.describe(kind);
   const parts = { work, panel, manifest };
   const list = parts.list = new ListPanel({ list: byId('list'), queueTab: byId('queue-tab'), editsTab: byId('edits-tab') }, manifest, verdicts, (entry) => open(entry, parts));
   const commands = makeCommands({ list, work, panel, verdicts, say, help: () => showHelp(commands) });

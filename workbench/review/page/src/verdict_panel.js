@@ -15,11 +15,12 @@ export class VerdictPanel {
     this.buttons = BUTTONS.map(([verdict, text, key]) => make('button', { type: 'button', class: `verdict ${verdict}`, 'aria-keyshortcuts': key, 'aria-pressed': 'false',
       onclick: () => this.decide(verdict) }, text, make('kbd', { 'aria-hidden': 'true' }, key)));
     this.comment = make('textarea', { id: 'comment', rows: 3, maxlength: 20000, 'aria-describedby': 'comment-hint', oninput: () => this.typed(), onchange: () => this.commit(),
-      onkeydown: (event) => { if (event.key === 'Enter' && (event.ctrlKey || event.metaKey)) { this.commit(); this.leave(); } } });
+      onkeydown: (event) => { if (event.key === 'Enter' && (event.ctrlKey || event.metaKey)) { this.leave(); this.commit(); } } });
+    this.title = make('h3', { tabindex: -1 }, 'Your verdict');
     this.hint = make('p', { id: 'comment-hint', class: 'quiet' });
     this.marks = make('div', { class: 'marks' });
-    fill(element, make('h3', {}, 'Your verdict'), make('div', { class: 'verdict-buttons', role: 'group', 'aria-label': 'Verdict on this edit' }, ...this.buttons),
-         make('label', { for: 'comment' }, 'Comment; the reason of a rejection'), this.comment, this.hint, this.marks);
+    fill(element, this.title, make('div', { class: 'verdict-buttons', role: 'group', 'aria-label': 'Verdict on this edit' }, ...this.buttons),
+         make('label', { for: 'comment' }, 'Comment (required for a rejection)'), this.comment, this.hint, this.marks);
     verdicts.addEventListener('change', () => this.refresh());
   }
 
@@ -32,9 +33,11 @@ export class VerdictPanel {
     this.showMarks();
   }
 
-  decide(verdict) {
+  /** @param {boolean} [byKey] a key gives a verdict and never withdraws one: it may be meant for a field */
+  decide(verdict, byKey = false) {
     if (!this.edit) return;
     const { id } = this.edit;
+    if (byKey && this.verdicts.of(id).verdict === verdict) { this.say(`${SAID[verdict]} Its button withdraws it.`); return; }
     if (this.comment.value !== this.verdicts.of(id).comment) this.verdicts.comment(id, this.comment.value);
     if (!this.verdicts.decide(id, verdict)) {
       this.wanted = 'reject';
@@ -61,7 +64,11 @@ export class VerdictPanel {
 
   typed() { if (this.wanted) this.refresh(); }
 
-  leave() { this.buttons[0].focus(); }
+  /** To no button: a second Enter gives no verdict. */
+  leave() { this.title.focus(); }
+
+  /** Asks for the remark on the mark that was placed last. */
+  describe(kind) { this.marks.querySelector(`#${kind}-${this.verdicts.of(this.edit.id)[kind].length - 1}`)?.focus(); }
 
   refresh() {
     if (!this.edit) return;

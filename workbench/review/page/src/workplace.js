@@ -14,6 +14,9 @@ const MODE_NAMES = { after: 'After', before: 'Before', dissolve: 'Dissolve', sid
 const BLINK = 600;  // a side is seen so long [ms]: below two changes a second, which nobody has to fear
 
 export class Workplace {
+  /** Called with 'pins' or 'distances' when one was placed. */
+  onmark = null;
+
   /** @param manifest @param pool @param verdicts @param {(text: string) => void} say */
   constructor(manifest, pool, verdicts, say) {
     Object.assign(this, { manifest, pool, verdicts, say, mode: 'after', shown: null, edit: null, tool: null, start: null, blinking: 0 });
@@ -188,7 +191,9 @@ export class Workplace {
     else this.verdicts.addDistance(this.edit.id, this.start, at);
     const entry = this.verdicts.of(this.edit.id);
     this.say(this.tool === 'pin' ? `Pin ${entry.pins.length} placed.` : `Distance ${entry.distances.at(-1).mm.toFixed(2)} mm.`);
+    const kind = this.tool === 'pin' ? 'pins' : 'distances';
     this.disarm();
+    this.onmark?.(kind);
   }
 
   showMarks() {
