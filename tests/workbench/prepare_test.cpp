@@ -27,7 +27,11 @@
 #include "tests/support/shapes.h"
 #include "tests/support/skip.h"
 #include "workbench/export/export_formats.h"
+#include "workbench/operations/table.h"
 #include "workbench/prepare/model_check.h"
+#include "workbench/review/provenance.h"
+#include "workbench/review/review.h"
+#include "workbench/session/session.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;
@@ -803,6 +807,16 @@ SCENARIO("A surface too coarse to be smoothed is no model", "[workbench][prepare
     }
 }
 
+namespace {
+
+/// The line that exports of a flow model carry.
+std::string provenance_of(const std::string& project) {
+    const Session session = Session::open(project, {.find = find_operation, .only_reads = true});
+    return provenance(session, "cfd", review_of(session, "cfd"));
+}
+
+}  // namespace
+
 SCENARIO("A project is created and edited by hand", "[workbench][prepare]") {
     const std::string folder = temporary_folder();
     const std::string project = folder + "/hand.vbench";
@@ -820,6 +834,7 @@ SCENARIO("A project is created and edited by hand", "[workbench][prepare]") {
     CHECK(Json::parse(replay.out)["same"] == true);
     REQUIRE(run({"export", project, folder + "/exact.vtp"}).exit_code == 0);
     const Scene scene{.surface = read_surface(folder + "/exact.vtp").surface};
+    const std::string line = provenance_of(project);
     for (const ExportFormat& format : export_formats()) {
         // A page says when it was written, and its title.
         if (format.kind != FormatKind::Surface || format.takes_page) continue;
@@ -827,7 +842,7 @@ SCENARIO("A project is created and edited by hand", "[workbench][prepare]") {
         INFO(suffix);
         CHECK(run({"export", project, folder + "/model" + suffix}).exit_code == 0);
         // The writer makes the same bytes of the surface that the exact file holds.
-        format.write(scene, folder + "/again" + suffix, {}, {});
+        format.write(scene, folder + "/again" + suffix, {.provenance = line}, {});
         CHECK(text_of(folder + "/model" + suffix) == text_of(folder + "/again" + suffix));
         if (!row_that_reads(surface_formats(), "x" + suffix)) continue;
         const Surface read = read_surface(folder + "/model" + suffix).surface;
