@@ -196,7 +196,9 @@ SCENARIO("The bundled case is prepared by hand", "[window][walk][display]") {
     window->app().place().close();
     CHECK(stored_log(project).size() == walk.commands.size() + 1);
     // The same on the command line.
-    const std::string folder = temporary_folder(), typed = folder + "/typed.vbench";
+    const std::string folder = temporary_folder();
+    const std::string typed =
+        folder + "/" + project.filename().string();  // files name their project
     const std::string input = source_folder() + "/cases/aneurysm";
     REQUIRE(run_program(program_path(), {"new", typed, input}).exit_code == 0);
     for (const std::string& command : walk.commands) type_command(command, project.string(), typed);
