@@ -426,12 +426,14 @@ void review(Photographer& p) {
     p.take("review-correct");
     p.click("operation.back");
     p.wait();
-    p.shell.press_key(keys::kEscape);
-    p.scroll("review.edit.4", -30);
+    p.click("rail.review");
+    p.wait();
+    p.scroll("review.edit.1", -60);
     p.click("review.whole");
-    p.scroll("review.whole", -30);
+    p.scroll("review.whole", -60);
     p.rest_mouse();
     p.take("review-whole");
+    p.scroll("review.whole", 60);
     p.click("review.import");
     p.rest_mouse();
     p.take("review-import");
