@@ -30,7 +30,8 @@ def make_project(folder):
     """The bundled phantom's exact surface, with openings, of small triangles, edited at places all over the wall."""
     run("phantom", "aneurysm", "--out", folder)
     project = Project(folder, "bench", os.path.join(folder, "exact.vtp"))
-    project.apply("repair").apply("clip-opening", "accept_doubts=true").apply("remesh", "mode=uniform", f"edge={EDGE}", "--step", "openings")
+    project.apply("repair").apply("clip-opening", "accept_doubts=true")
+    project.apply("remesh", "mode=uniform", f"edge={EDGE}", "--step", "openings")
     start = os.path.join(folder, "start.off")
     run("export", project.project, start)
     points, triangles = read_off(start)
