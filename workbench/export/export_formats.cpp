@@ -33,15 +33,13 @@ void add_surfaces(std::vector<ExportFormat>& all, const std::vector<SurfaceForma
                  }});
 }
 
-constexpr int kLegendColours = 33;  ///< between them, viewers interpolate
-
 GlbColours glb_colours(const ShownMeasure& measure) {
     GlbColours colours{.name = measure.name,
                        .label = measure.label,
                        .unit = measure.unit,
                        .least = measure.scale.least,
                        .most = measure.scale.most,
-                       .map = legend_colours(measure.scale, kLegendColours),
+                       .map = legend_colours(measure.scale),
                        .vertices = {}};
     for (const Colour& colour : colours_of(measure.values, measure.scale))
         colours.vertices.push_back({colour.x(), colour.y(), colour.z()});

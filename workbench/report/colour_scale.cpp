@@ -47,9 +47,10 @@ std::vector<Colour> colours_of(const std::vector<double>& values, const ColourSc
     return colours;
 }
 
-std::vector<PixelColour> legend_colours(const ColourScale& scale, int count) {
+std::vector<PixelColour> legend_colours(const ColourScale& scale) {
+    constexpr int kCount = 33;
     std::vector<PixelColour> colours;
-    for (const Colour& colour : colour_steps(scale.map, count))
+    for (const Colour& colour : colour_steps(scale.map, kCount))
         colours.push_back(pixel_colour(colour));
     return colours;
 }

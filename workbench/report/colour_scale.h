@@ -23,8 +23,9 @@ struct ColourScale {
 [[nodiscard]] std::vector<Colour> colours_of(const std::vector<double>& values,
                                              const ColourScale& scale);
 
-/// The scale's colours in equal steps from `least` to `most`, for legends elsewhere.
-[[nodiscard]] std::vector<PixelColour> legend_colours(const ColourScale& scale, int count);
+/// The scale's colours in equal steps from `least` to `most`, for legends elsewhere: so many that
+/// viewers may interpolate between them.
+[[nodiscard]] std::vector<PixelColour> legend_colours(const ColourScale& scale);
 
 /// The picture with the scale and a title below it.
 [[nodiscard]] Picture with_scale(const Picture& picture, const ColourScale& scale,

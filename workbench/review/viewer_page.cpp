@@ -28,7 +28,6 @@ using Json = nlohmann::ordered_json;
 constexpr std::size_t kMostComponents = 8;
 /// Shares of the measure's range begin here; 0 is a vertex without a value.
 constexpr double kFirstShare = 0.001;
-constexpr int kLegendColours = 33;
 constexpr const char* kShares = "shares";
 
 struct Structure {
@@ -91,11 +90,10 @@ Bounds box_of(const std::vector<Structure>& structures) {
 }
 
 Json colour_json(const ShownMeasure& measure) {
-    return {
-        {"name", measure.name},       {"label", measure.label},
-        {"unit", measure.unit},       {"least", measure.scale.least},
-        {"most", measure.scale.most}, {"colours", legend_colours(measure.scale, kLegendColours)},
-        {"values", Json::array()}};
+    return {{"name", measure.name},       {"label", measure.label},
+            {"unit", measure.unit},       {"least", measure.scale.least},
+            {"most", measure.scale.most}, {"colours", legend_colours(measure.scale)},
+            {"values", Json::array()}};
 }
 
 /// The smallest distance of every two structures.
