@@ -226,7 +226,7 @@ SCENARIO("A recipe can require that reviewers have accepted the model",
         INFO(done.err);
         REQUIRE(done.exit_code == 0);
         const std::string header = file_content(out + "/surface.stl").substr(0, 80);
-        CHECK_THAT(header, Contains("UNITS=mm, project project, planning, accepted by A. Kern"));
+        CHECK_THAT(header, Contains("UNITS=mm, project tube, planning, accepted by A. Kern"));
         CHECK_THAT(file_content(out + "/surface.vtp"), Contains("accepted by A. Kern"));
         const Json report = Json::parse(file_content(out + "/report.json"));
         CHECK(report["review"]["state"] == "accepted by A. Kern");

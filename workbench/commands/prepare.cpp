@@ -68,12 +68,11 @@ void check_shown(const ExportArguments& arguments) {
 ViewerContents shown_contents(const ExportArguments& arguments, const Session& session,
                               const std::string& variant, const Scene& scene,
                               const Progress& progress) {
-    ViewerContents shown{
-        .title = arguments.title.empty() ? shown_name(session.project()) : arguments.title,
-        .text = arguments.text,
-        .purpose = model_title(variant),
-        .colour = {},
-        .slices = arguments.images == "slices"};
+    ViewerContents shown{.title = arguments.title.empty() ? shown_name(session) : arguments.title,
+                         .text = arguments.text,
+                         .purpose = model_title(variant),
+                         .colour = {},
+                         .slices = arguments.images == "slices"};
     if (!arguments.colour.empty()) shown.colour = shown_measure(scene, arguments.colour, progress);
     if (shown.slices && !scene.image)
         throw InvalidInput("--images slices: the project has no image");

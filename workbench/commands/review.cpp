@@ -66,9 +66,8 @@ Json write_page(Session& session, const ReviewArguments& arguments, const Progre
     if (std::filesystem::exists(arguments.page) && session.is_source(arguments.page))
         throw UsageError(bare_name(arguments.page) + " is a file that the case was made from");
     const std::string variant = variant_meant(arguments.variant, *session.snapshot()->history);
-    static_cast<void>(session.scene(variant, progress.part(0.0, 0.5)));  // runs pending edits
-    const ReviewPage page = review_page(session, variant, find_operation,
-                                        images_of(arguments.images), progress.part(0.5, 1.0));
+    const ReviewPage page =
+        review_page(session, variant, find_operation, images_of(arguments.images), progress);
     PendingFiles files;
     (void)files.add_text(arguments.page, page.html);
     files.commit();

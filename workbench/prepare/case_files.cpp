@@ -1,5 +1,7 @@
 #include "workbench/prepare/case_files.h"
 
+#include <functional>
+
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/inner_file.h"
 #include "geometry/kernel/regular_file.h"
@@ -12,19 +14,22 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-void place_files(const fs::path& folder, const Operation& operation, Json& arguments) {
+/// What becomes of a file's text; `what` names its place in messages.
+using ChangeFile = std::function<std::string(const std::string& file, const std::string& what)>;
+
+void change_files(const Operation& operation, Json& arguments, const ChangeFile& change) {
     if (!arguments.is_object()) return;
     for (const Parameter& parameter : operation.parameters) {
         const auto named = arguments.find(parameter.name);
         if (parameter.type != ParameterType::File || named == arguments.end() ||
             !named->is_string())
             continue;
-        const std::string what = "the recipe's " + operation.name + " " + parameter.name;
-        *named = inner_file(folder, named->get<std::string>(), what).string();
+        *named = change(named->get<std::string>(),
+                        "the recipe's " + operation.name + " " + parameter.name);
     }
 }
 
-void place_files(const fs::path& folder, Json& entry) {
+void change_entry(Json& entry, const ChangeFile& change) {
     if (!entry.is_object()) return;
     const auto name = entry.find("operation");
     const Operation* operation = name != entry.end() && name->is_string()
@@ -32,9 +37,15 @@ void place_files(const fs::path& folder, Json& entry) {
                                      : nullptr;
     for (const char* key : {"arguments", "otherwise"})
         if (const auto given = entry.find(key); operation != nullptr && given != entry.end())
-            place_files(folder, *operation, *given);
+            change_files(*operation, *given, change);
     if (const auto made = entry.find("unless_made"); made != entry.end())
-        place_files(folder, *made);
+        change_entry(*made, change);
+}
+
+Json with_files_changed(Json recipe, const ChangeFile& change) {
+    if (recipe.is_array())
+        for (Json& entry : recipe) change_entry(entry, change);
+    return recipe;
 }
 
 }  // namespace
@@ -50,9 +61,16 @@ fs::path case_file(const fs::path& folder, JsonFields& fields, const char* key) 
 }
 
 Json recipe_in(const fs::path& folder, Json recipe) {
-    if (recipe.is_array())
-        for (Json& entry : recipe) place_files(folder, entry);
-    return recipe;
+    return with_files_changed(std::move(recipe),
+                              [&](const std::string& file, const std::string& what) {
+                                  return inner_file(folder, file, what).string();
+                              });
+}
+
+Json with_file_names(Json recipe) {
+    return with_files_changed(std::move(recipe), [](const std::string& file, const std::string&) {
+        return fs::path(file).filename().string();
+    });
 }
 
 }  // namespace vesselbench

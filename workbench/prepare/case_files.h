@@ -20,4 +20,7 @@ namespace vesselbench {
 [[nodiscard]] nlohmann::ordered_json recipe_in(const std::filesystem::path& folder,
                                                nlohmann::ordered_json recipe);
 
+/// A recipe that names its files without their folders.
+[[nodiscard]] nlohmann::ordered_json with_file_names(nlohmann::ordered_json recipe);
+
 }  // namespace vesselbench

@@ -16,6 +16,7 @@
 #include "workbench/operations/table.h"
 #include "workbench/prepare/acceptance_gate.h"
 #include "workbench/prepare/apply_recipe.h"
+#include "workbench/prepare/kept_recipe.h"
 #include "workbench/prepare/model_check.h"
 #include "workbench/prepare/prepare_report.h"
 #include "workbench/prepare/prepared_purposes.h"
@@ -291,68 +292,72 @@ PrepareSummary finished(Session& session, const Recipe& rest, const PrepareOptio
     }
 }
 
+/// What the project keeps of its preparation beside the edits.
+/// \return the number of reviewers who have to accept the model
+std::size_t begin_project(const PrepareOptions& options, const Input& input,
+                          const Json& recipe_json, const FlowSettings& flow) {
+    const fs::path project = options.out / kProject;
+    if (!options.resume) keep_recipes(project, input);
+    if (!options.recipe.empty()) keep_recipe(project, options.purpose, recipe_json);
+    keep_name(project, input);
+    begin_purpose(project, options.purpose);
+    if (!flow.stored().empty()) store_text(project, StoredText::Flow, flow.stored());
+    return kept_reviewers(project, options.purpose, reviewers_asked(options, input, recipe_json));
+}
+
+/// Of a preparation that stopped: the project, if there is an edit in it, and how to go on.
+void keep_what_was_made(Session& session, const PrepareOptions& options, bool any_edit,
+                        const std::exception& error, const Teller& tell) {
+    const bool unusable = dynamic_cast<const UnusableSource*>(&error) != nullptr;
+    if (unusable ? !options.resume : !any_edit) return session.discard();
+    if (unusable || dynamic_cast<const UsageError*>(&error) != nullptr) return;
+    if (const auto* failure = dynamic_cast<const DiagnosedFailure*>(&error))
+        return write_refusal(options, *failure, tell);
+    tell("the completed edits are kept in " + std::string(kProject) +
+         "; the results were not written; --resume continues there, also after a manual edit");
+}
+
 }  // namespace
 
 PrepareSummary prepare(const PrepareOptions& options, const Teller& tell,
                        const Progress& progress) {
-    const Input input = resolve_input(named_input(options), progress.part(0.0, 0.02));
-    PrepareOptions for_recipe = options;
-    PreparedCase prepared{.purpose = options.purpose, .input = input};
     const fs::path project = options.out / kProject;
     if (options.resume && !fs::exists(project))
         throw UsageError("--resume: there is no project.vbench in '" +
                          options.out.filename().string() + "' to go on with");
+    Input input = resolve_input(named_input(options), progress.part(0.0, 0.02));
+    if (options.resume) take_kept_recipes(input, project);
+    PrepareOptions for_recipe = options;
     FlowSettings flow(options.resume ? stored_text(project, StoredText::Flow) : "");
     flow.take(for_recipe.arguments);
-    prepared.flow = flow.parameters();
     const Json recipe_json = recipe_json_from(options, input);
-    Recipe recipe = recipe_for(for_recipe, input, recipe_json);
+    const Recipe recipe = recipe_for(for_recipe, input, recipe_json);
     refuse_own_input(options, input);
     const ResultFolder folder(options.out);
     Session session = opened_project(options, tell);
     bool any_edit = options.resume;
+    const Teller noting(
+        [&](const std::string& text) {
+            any_edit = true;
+            tell(text);
+        },
+        [&](const Diagnostic& warning) {
+            any_edit = true;
+            tell.warn(warning);
+        });
     try {
+        PreparedCase prepared{
+            .purpose = options.purpose, .input = input, .flow = flow.parameters()};
+        Recipe rest = recipe;
         if (options.resume) {
-            recipe = rest_in(session, recipe, for_recipe, prepared, tell);
+            rest = rest_in(session, recipe, for_recipe, prepared, tell);
             tell_flow(options, flow, tell);
-        } else {
-            keep_recipes(project, input);
         }
-        keep_name(project, input);
-        begin_purpose(project, options.purpose);
-        prepared.reviewers =
-            kept_reviewers(project, options.purpose, reviewers_asked(options, input, recipe_json));
-        if (!flow.stored().empty()) store_text(project, StoredText::Flow, flow.stored());
-        const Teller noting(
-            [&](const std::string& text) {
-                any_edit = true;
-                tell(text);
-            },
-            [&](const Diagnostic& warning) {
-                any_edit = true;
-                tell.warn(warning);
-            });
-        return finished(session, recipe, options, std::move(prepared), noting,
+        prepared.reviewers = begin_project(options, input, recipe_json, flow);
+        return finished(session, rest, options, std::move(prepared), noting,
                         progress.part(0.02, 1.0));
-    } catch (const UnusableSource&) {
-        if (!options.resume) session.discard();
-        throw;
-    } catch (const UsageError&) {
-        if (!any_edit) session.discard();
-        throw;
-    } catch (const DiagnosedFailure& failure) {
-        if (any_edit)
-            write_refusal(options, failure, tell);
-        else
-            session.discard();
-        throw;
-    } catch (const std::exception&) {
-        if (!any_edit)
-            session.discard();
-        else
-            tell("the completed edits are kept in " + project.filename().string() +
-                 "; the results were not written; --resume continues there, also after a manual "
-                 "edit");
+    } catch (const std::exception& error) {
+        keep_what_was_made(session, options, any_edit, error, tell);
         throw;
     }
 }

@@ -1,8 +1,6 @@
 #include "workbench/review/page_bytes.h"
 
-#include <zlib.h>
-
-#include "geometry/kernel/errors.h"
+#include "geometry/formats/image_bytes.h"
 #include "workbench/report/base64.h"
 
 namespace vesselbench {
@@ -28,16 +26,6 @@ void append_bytes(std::string& bytes, Number number) {
         bytes.push_back(static_cast<char>((number >> (8 * b)) & 0xff));
 }
 
-std::string deflated(const std::string& bytes) {
-    uLongf size = compressBound(bytes.size());
-    std::string packed(size, '\0');
-    if (compress2(reinterpret_cast<Bytef*>(packed.data()), &size,
-                  reinterpret_cast<const Bytef*>(bytes.data()), bytes.size(), 9) != Z_OK)
-        throw AlgorithmFailure("no memory to compress a page's data");
-    packed.resize(size);
-    return packed;
-}
-
 }  // namespace
 
 void append_plane(std::string& bytes, std::span<const std::uint16_t> numbers) {
@@ -57,7 +45,7 @@ void append_number(std::string& bytes, std::uint32_t number) {
 }
 
 std::string packed_text(const std::string& bytes) {
-    return base64(deflated(bytes));
+    return base64(deflated(bytes, false, {}));
 }
 
 }  // namespace vesselbench

@@ -1,6 +1,7 @@
 #include "workbench/review/provenance.h"
 
 #include <filesystem>
+#include <optional>
 
 #include "geometry/kernel/wording.h"
 #include "workbench/project/project.h"
@@ -12,6 +13,21 @@ namespace {
 
 constexpr std::size_t kDigits = 12;
 
+/// What `prepare` calls every project, whatever is in it.
+constexpr const char* kPrepared = "project";
+
+std::string stem_of(const std::string& file) {
+    return std::filesystem::path(file).stem().string();
+}
+
+/// The first file that the case was made from.
+std::optional<std::string> source_name(const Session& session) {
+    for (const LogEntry& entry : session.log())
+        for (const SourceFile& file : session.project().sources(entry.edit.edit))
+            return stem_of(file.name);
+    return std::nullopt;
+}
+
 std::string digest_of(const Session& session, const std::string& variant) {
     std::string digest;
     for (const LogEntry& entry : session.log(variant))
@@ -21,14 +37,17 @@ std::string digest_of(const Session& session, const std::string& variant) {
 
 }  // namespace
 
-std::string shown_name(const ProjectFile& project) {
+std::string shown_name(const Session& session) {
+    const ProjectFile& project = session.project();
     if (project.name().empty()) return "";
     const std::string given = stored_text(project.folder() / project.name(), StoredText::InputName);
-    return given.empty() ? std::filesystem::path(project.name()).stem().string() : given;
+    if (!given.empty()) return given;
+    const std::string name = stem_of(project.name());
+    return name == kPrepared ? source_name(session).value_or(name) : name;
 }
 
 std::string provenance(const Session& session, const std::string& variant, const Review& review) {
-    const std::string name = shown_name(session.project()), digest = digest_of(session, variant);
+    const std::string name = shown_name(session), digest = digest_of(session, variant);
     std::vector<std::string> parts;
     if (!name.empty()) parts.push_back("project " + name);
     if (!variant.empty()) parts.push_back(variant);

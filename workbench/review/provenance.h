@@ -2,15 +2,15 @@
 
 #include <string>
 
-#include "workbench/project/project.h"
 #include "workbench/review/review.h"
 #include "workbench/session/session.h"
 
 namespace vesselbench {
 
 /// What a project is called in files that leave it: the name that its input was given (`--name`),
-/// so that no file name leaves, else its file's name without suffix.
-[[nodiscard]] std::string shown_name(const ProjectFile& project);
+/// so that no file name leaves, else its file's name without suffix, or, as `prepare` calls all of
+/// its projects the same, that of the file that the case was made from.
+[[nodiscard]] std::string shown_name(const Session& session);
 
 /// One line for the headers of exported files: "project carotid, cfd, accepted by A. Kern, model
 /// 1a2b3c4d5e6f". The model's digits are the first of the SHA-256 that its result has in the

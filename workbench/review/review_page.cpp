@@ -10,11 +10,20 @@
 
 namespace vesselbench {
 
+namespace {
+
+/// Fraction of the progress for pending edits.
+constexpr double kEditsShare = 0.5;
+
+}  // namespace
+
 ReviewPage review_page(Session& session, const std::string& variant, const OperationLookup& find,
                        PageImages images, const Progress& progress) {
     require_page(review_page_bytes());
+    static_cast<void>(session.scene(variant, progress.part(0.0, kEditsShare)));
     const std::vector<LogEntry> log = session.log(variant);
-    const PageModels models = page_models(session, log, find, {.images = images}, progress);
+    const PageModels models =
+        page_models(session, log, find, {.images = images}, progress.part(kEditsShare, 1.0));
     std::map<std::string, std::string> blobs = models.geometry.blobs();
     blobs.insert(models.slices.begin(), models.slices.end());
     const nlohmann::ordered_json manifest =

@@ -14,6 +14,8 @@ std::string key_of(StoredText which) {
     switch (which) {
         case StoredText::Recipes:
             return "recipes";
+        case StoredText::GivenRecipes:
+            return "given recipes";
         case StoredText::Flow:
             return "flow";
         case StoredText::Warnings:

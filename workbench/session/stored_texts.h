@@ -8,15 +8,16 @@ namespace vesselbench {
 /// What a project keeps beside its history: it is of the project, not of a state, and undo does
 /// not change it. Each is JSON.
 enum class StoredText {
-    Recipes,     ///< those that the case brought along
-    Flow,        ///< the arguments given for the flow, of those in flow_parameters()
-    Spots,       ///< stored_spots.h
-    Warnings,    ///< of a recipe, beside those of the edits
-    Purposes,    ///< that it was prepared for, the last one last
-    InputName,   ///< the one that was given in place of the input's own
-    Acceptance,  ///< how many reviewers a purpose's products require, by its name
-    CaseFolder,  ///< where the files of these recipes are, relative to the project's folder
-    Measures     ///< stored_measures.h
+    Recipes,       ///< those that the case brought along
+    GivenRecipes,  ///< those that files gave, by the purpose's name
+    Flow,          ///< the arguments given for the flow, of those in flow_parameters()
+    Spots,         ///< stored_spots.h
+    Warnings,      ///< of a recipe, beside those of the edits
+    Purposes,      ///< that it was prepared for, the last one last
+    InputName,     ///< the one that was given in place of the input's own
+    Acceptance,    ///< how many reviewers a purpose's products require, by its name
+    CaseFolder,    ///< where the files of these recipes are, relative to the project's folder
+    Measures       ///< stored_measures.h
 };
 
 /// Keeps a text in a project file, which a session of this process may have open.

@@ -430,12 +430,11 @@ void Document::export_to(const std::filesystem::path& file) {
         const Scene scene = session.scene(variant, progress.part(0.0, 0.7));
         PendingFiles files;
         const FlowSettings flow(stored_text(project, StoredText::Flow));
-        export_scene(
-            files, file, scene,
-            {.flow = flow.parameters(),
-             .provenance = provenance(session, variant, review_of(session, variant)),
-             .shown = {.title = shown_name(session.project()), .purpose = model_title(variant)}},
-            progress.part(0.7, 1.0));
+        export_scene(files, file, scene,
+                     {.flow = flow.parameters(),
+                      .provenance = provenance(session, variant, review_of(session, variant)),
+                      .shown = {.title = shown_name(session), .purpose = model_title(variant)}},
+                     progress.part(0.7, 1.0));
         progress.check_cancelled();
         files.commit();
         record_export(session, file, variant);

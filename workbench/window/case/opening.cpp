@@ -8,6 +8,7 @@
 #include "geometry/kernel/whole_file.h"
 #include "workbench/case/json_text.h"
 #include "workbench/case/purposes.h"
+#include "workbench/prepare/kept_recipe.h"
 #include "workbench/prepare/prepare.h"
 #include "workbench/session/stored_texts.h"
 #include "workbench/window/case/preparation.h"
@@ -64,14 +65,15 @@ fs::path case_folder(const fs::path& project) {
     return stored.empty() ? beside : inner_file(beside, stored, "the case's folder");
 }
 
-/// What a reopened project knows of its input: its own recipes, unless they cannot be used.
+/// What a reopened project knows of its input: the recipes it keeps, unless they cannot be used.
 std::optional<Input> remembered_input(const fs::path& project, std::vector<Message>& remarks) {
     try {
-        const std::string text = stored_text(project, StoredText::Recipes);
-        if (text.empty()) return std::nullopt;
         Input input;
         input.folder = case_folder(project);
-        input.recipes = std::make_shared<const Json>(json_from_text(text, "the stored recipe"));
+        if (const std::string text = stored_text(project, StoredText::Recipes); !text.empty())
+            input.recipes = std::make_shared<const Json>(json_from_text(text, "the stored recipe"));
+        take_kept_recipes(input, project);
+        if (!input.recipes) return std::nullopt;
         check_recipes(input);
         return input;
     } catch (const std::exception& error) {
