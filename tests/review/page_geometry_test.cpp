@@ -133,6 +133,7 @@ SCENARIO("Patches and values follow the page's triangles and vertices", "[review
     for (const Vec3& point : tube.points()) heights.push_back(point.z() - bounds(tube).min.z());
     const Json values = geometry.add_values(state, heights);
     CHECK(values["max_mm"].get<double>() == Approx(20.0));
+    CHECK(values["min_mm"] == 0.0);
     REQUIRE(state.used.size() == tube.vertex_count());
     const std::string bytes = unpacked(geometry.blobs().at(values["blob"]), 2 * state.used.size());
     for (std::size_t i = 0; i < state.used.size(); ++i) {
@@ -142,6 +143,25 @@ SCENARIO("Patches and values follow the page's triangles and vertices", "[review
         REQUIRE(20.0 * share ==
                 Approx(pool.points[state.used[i]].z() - bounds(tube).min.z()).margin(0.001));
     }
+}
+
+SCENARIO("Values with a sign are kept between the largest and its negative", "[review]") {
+    const Surface tube = closed_tube(3.0, 20.0, 24, 20);
+    PageGeometry geometry(bounds(tube));
+    const auto state = geometry.add(tube);
+    std::vector<double> values(tube.vertex_count(), 0.0);
+    values[0] = -0.5;
+    const Json stored = geometry.add_values(state, values);
+    CHECK(stored["min_mm"] == -0.5);
+    CHECK(stored["max_mm"] == 0.5);
+    const std::string bytes = unpacked(geometry.blobs().at(stored["blob"]), 2 * state.used.size());
+    std::vector<int> steps;
+    for (std::size_t i = 0; i < state.used.size(); ++i)
+        steps.push_back(static_cast<unsigned char>(bytes[2 * i]) +
+                        256 * static_cast<unsigned char>(bytes[2 * i + 1]));
+    CHECK(std::ranges::count(steps, 0) == 1);
+    CHECK(std::ranges::count_if(steps, [](int step) { return step == 32767 || step == 32768; }) ==
+          static_cast<std::ptrdiff_t>(steps.size()) - 1);
 }
 
 SCENARIO("Surfaces that are smaller than the page's steps do not break it", "[review]") {

@@ -14,7 +14,8 @@ namespace {
 
 std::vector<double> deviations_of(const Surface& of, const Surface& to) {
     const SurfaceDistance distance(to);
-    return wall_deviations(of, to, distance.closest_points(of.points()));
+    const std::vector<SurfacePoint> closest = distance.closest_points(of.points());
+    return wall_deviations(of, to, closest, signed_distances(of, distance, closest));
 }
 
 std::optional<WallChange> change_from(const Surface& before, const Surface& after) {
@@ -52,6 +53,20 @@ SCENARIO("A change of the wall is found beside its radius", "[review]") {
     REQUIRE(change->radius);
     CHECK(*change->radius == Approx(3.0).epsilon(0.05));
     CHECK_FALSE(change_from(tube, tube));
+}
+
+SCENARIO("A change of the wall says to which side it went", "[review]") {
+    const Surface tube = closed_tube(3.0, 30.0, 32, 40), wider = widened(tube, 0.6),
+                  narrower = widened(tube, -0.6);
+    CHECK_FALSE(change_from(tube, wider)->inward);
+    CHECK(change_from(wider, tube)->inward);
+    CHECK(change_from(tube, narrower)->inward);
+    CHECK_FALSE(change_from(narrower, tube)->inward);
+    const SurfaceDistance distance(tube);
+    const auto values =
+        signed_distances(narrower, distance, distance.closest_points(narrower.points()));
+    CHECK(std::ranges::min(values) == Approx(-0.6).epsilon(0.1));
+    CHECK(std::ranges::max(values) == Approx(0.0).margin(1e-6));
 }
 
 SCENARIO("A vessel that gets longer or shorter at an opening keeps its wall", "[review]") {

@@ -57,7 +57,7 @@ SCENARIO("What a report should state is listed, stated or not", "[review][report
     CHECK(text_of(items, "source") == "scan.nrrd");
     CHECK(text_of(items, "resolution") == "0.45 x 0.45 x 0.8 mm, 83 x 25 x 78 voxels");
     CHECK(text_of(items, "segmentation") == "extract-surface threshold=250");
-    CHECK(text_of(items, "edits") == "3 edits, listed");
+    CHECK(text_of(items, "edits") == "4 edits, listed");
     CHECK(text_of(items, "operators") == "Ada, Bo");
     CHECK(text_of(items, "reviewers") == "A. Kern (radiologist)");
     CHECK_THAT(text_of(items, "accuracy of the editing"), Contains("0.25 mm by edit 3 smooth"));

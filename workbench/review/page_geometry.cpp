@@ -170,15 +170,21 @@ nlohmann::ordered_json PageGeometry::add_values(const State& state,
         const auto place = std::ranges::lower_bound(state.used, state.vertices[v]);
         if (place == state.used.end() || *place != state.vertices[v]) continue;
         double& value = largest[static_cast<std::size_t>(place - state.used.begin())];
-        value = std::max(value, values[v]);
+        if (std::abs(values[v]) > std::abs(value)) value = values[v];
     }
-    const double most = largest.empty() ? 0.0 : std::ranges::max(largest);
+    double most = 0.0;
+    bool negative = false;
+    for (const double value : largest) {
+        most = std::max(most, std::abs(value));
+        negative = negative || value < 0.0;
+    }
+    const double least = negative ? -most : 0.0;
     std::string bytes;
     for (const double value : largest)
-        append_number(bytes, rounded_share(most > 0.0 ? value / most : 0.0));
+        append_number(bytes, rounded_share(most > 0.0 ? (value - least) / (most - least) : 0.0));
     const std::string name = "deviation-" + std::to_string(state.number);
     bytes_[name] = std::move(bytes);
-    return {{"blob", name}, {"max_mm", most}};
+    return {{"blob", name}, {"min_mm", least}, {"max_mm", most}};
 }
 
 std::map<std::string, std::string> PageGeometry::blobs() const {

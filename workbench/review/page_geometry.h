@@ -33,7 +33,8 @@ public:
     State add(const Surface& surface);
 
     /// Adds values of a state's vertices, 0 or more.
-    /// \return their blob and largest value: {"blob", "max_mm"}
+    /// \return their blob and the values of its first and last step: {"blob", "min_mm", "max_mm"};
+    /// the least is 0, or the negative of the largest if some values are negative
     nlohmann::ordered_json add_values(const State& state, std::span<const double> values);
 
     /// {"pool", "chunks", "states"} of the page's data.

@@ -1,6 +1,7 @@
 #include "workbench/review/page_models.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -39,34 +40,35 @@ std::vector<SurfacePoint> closest_points(const ShownSurface& of, const ShownSurf
     return closest;
 }
 
-std::vector<double> distances(const std::vector<SurfacePoint>& closest) {
-    std::vector<double> values;
-    for (const SurfacePoint& point : closest) values.push_back(point.distance);
-    return values;
+double magnitude(double value) {
+    return std::abs(value);
 }
 
 void add_moved(const Surface& surface, const std::vector<double>& values, Positions& moved) {
     for (std::size_t v = 0; v < values.size(); ++v)
-        if (values[v] > kUnmoved) moved.push_back(surface.points()[v]);
+        if (magnitude(values[v]) > kUnmoved) moved.push_back(surface.points()[v]);
 }
 
 /// Of the largest deviation, unless an earlier one is larger.
 void take_largest(const Surface& surface, const std::vector<double>& values, PageEditModel& model) {
-    const auto largest = std::ranges::max_element(values);
-    if (largest == values.end() || *largest <= std::max(model.largest, kUnmoved)) return;
+    const auto largest = std::ranges::max_element(values, {}, magnitude);
+    if (largest == values.end() || magnitude(*largest) <= std::max(model.largest, kUnmoved)) return;
     const auto vertex = static_cast<std::size_t>(largest - values.begin());
-    model.largest = *largest;
+    model.largest = magnitude(*largest);
     model.place = surface.points()[vertex];
     model.outward = (*vertex_normals_of(surface))[vertex];
 }
 
 /// What was added is seen on the surface after the edit, what was lost on the one before it.
-/// \return distances of the surface after from the one before, #V; empty: nothing has changed
+/// \return signed_distances() of the surface after from the one before; empty: nothing has changed
 std::vector<double> add_difference(PageGeometry& geometry, const ShownSurface& before,
                                    const ShownSurface& after, PageEditModel& model) {
     const std::vector<SurfacePoint> behind = closest_points(after, before),
                                     ahead = closest_points(before, after);
-    const std::vector<double> gained = distances(behind), lost = distances(ahead);
+    const std::vector<double> gained = signed_distances(after.surface, distance_to(before.surface),
+                                                        behind),
+                              lost = signed_distances(before.surface, distance_to(after.surface),
+                                                      ahead);
     Positions moved;
     add_moved(after.surface, gained, moved);
     add_moved(before.surface, lost, moved);
@@ -78,9 +80,9 @@ std::vector<double> add_difference(PageGeometry& geometry, const ShownSurface& b
     take_largest(before.surface, lost, model);
     if (model.place)
         model.radius = radius_near(before.surface, distance_to(before.surface), *model.place);
-    model.wall = wall_change(before.surface, wall_deviations(before.surface, after.surface, ahead),
-                             after.surface, wall_deviations(after.surface, before.surface, behind),
-                             kUnmoved);
+    model.wall = wall_change(
+        before.surface, wall_deviations(before.surface, after.surface, ahead, lost), after.surface,
+        wall_deviations(after.surface, before.surface, behind, gained), kUnmoved);
     return gained;
 }
 

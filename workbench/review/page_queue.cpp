@@ -76,12 +76,14 @@ void add_deviation(const LogEntry& entry, const Operation* operation, const Page
     // without an opposite wall, as a sheet has none, the size of what changed is all there is
     const double radius = wall.radius.value_or(found->second.changed->diagonal() / 2);
     if (radius <= 0.0 || wall.largest < kLeastShare * radius) return;
-    std::string why = "The wall differs by up to " + formatted(wall.largest, "%.3g mm");
+    const std::string by =
+        "by up to " + formatted(wall.largest, "%.3g mm") + (wall.inward ? " inwards" : " outwards");
+    std::string why = "The wall moved " + by;
     if (wall.radius) why += ", where the vessel's radius is " + formatted(radius, "%.3g mm");
     const double by_hand = is_placed_by_hand(entry, operation) ? kByHand : 1.0;
     QueueItem item = item_of("deviation", entry,
                              kPerRadius * by_hand * std::min(unusual(wall, radius), kMostShare),
-                             "Differs by up to " + formatted(wall.largest, "%.3g mm"), why);
+                             "Moved " + by, why);
     item.place = wall.place;
     item.radius = wall.radius;
     queue.push_back(std::move(item));

@@ -1,5 +1,7 @@
 #include "workbench/review/page_thumbnail.h"
 
+#include <cmath>
+
 #include "geometry/kernel/errors.h"
 #include "gpu/picture.h"
 #include "gpu/png.h"
@@ -29,7 +31,7 @@ std::string thumbnail_png(const Surface& surface, std::span<const double> change
     options.background = kBackground;
     options.vertex_colours.assign(surface.vertex_count(), kWall);
     for (std::size_t v = 0; v < changed.size(); ++v)
-        if (changed[v] > kUnchanged) options.vertex_colours[v] = kChanged;
+        if (std::abs(changed[v]) > kUnchanged) options.vertex_colours[v] = kChanged;
     try {
         return png(draw(surface, options));
     } catch (const GpuUnavailable&) {

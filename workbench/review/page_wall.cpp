@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "geometry/kernel/measure.h"
+#include "geometry/kernel/parallel.h"
 
 namespace vesselbench {
 
@@ -29,11 +30,18 @@ std::optional<double> radius_below(const Surface& surface, const SurfaceDistance
     return hit->distance / 2;
 }
 
-void take_largest(const Surface& surface, std::span<const double> values, WallChange& change) {
-    const auto largest = std::ranges::max_element(values);
-    if (largest == values.end() || *largest <= change.largest) return;
-    change.largest = *largest;
+double magnitude(double value) {
+    return std::abs(value);
+}
+
+/// \return true if it was taken
+bool take_largest(const Surface& surface, std::span<const double> values, WallChange& change) {
+    const auto largest = std::ranges::max_element(values, {}, magnitude);
+    if (largest == values.end() || magnitude(*largest) <= change.largest) return false;
+    change.largest = magnitude(*largest);
+    change.inward = *largest < 0.0;
     change.place = surface.points()[static_cast<std::size_t>(largest - values.begin())];
+    return true;
 }
 
 double mean_square(std::span<const double> values) {
@@ -71,15 +79,26 @@ std::vector<bool> vertices_at_ends(const Surface& surface) {
     return wider;
 }
 
+std::vector<double> signed_distances(const Surface& of, const SurfaceDistance& other,
+                                     std::span<const SurfacePoint> closest) {
+    std::vector<double> values(of.vertex_count());
+    for_each_vertex(values.size(), [&](std::size_t v) {
+        const double distance = closest[v].distance;
+        values[v] = distance > 0.0 && other.inside(of.points()[v]) ? -distance : distance;
+    });
+    return values;
+}
+
 std::vector<double> wall_deviations(const Surface& of, const Surface& to,
-                                    std::span<const SurfacePoint> closest) {
+                                    std::span<const SurfacePoint> closest,
+                                    std::span<const double> distances) {
     const std::vector<bool> own = vertices_at_ends(of), other = vertices_at_ends(to);
     std::vector<double> values(of.vertex_count(), 0.0);
     for (std::size_t v = 0; v < values.size(); ++v) {
-        if (own[v] || closest[v].distance <= 0.0) continue;
+        if (own[v] || distances[v] == 0.0) continue;
         const Triangle& triangle = to.triangles()[closest[v].triangle];
         if (std::ranges::none_of(triangle, [&](VertexId corner) { return other[corner]; }))
-            values[v] = closest[v].distance;
+            values[v] = distances[v];
     }
     return values;
 }
@@ -89,7 +108,8 @@ std::optional<WallChange> wall_change(const Surface& before, std::span<const dou
                                       double least) {
     WallChange change{.largest = least};
     take_largest(after, gained, change);
-    take_largest(before, lost, change);
+    // where the surface before is outside of the one after, the wall moved inwards
+    if (take_largest(before, lost, change)) change.inward = !change.inward;
     if (change.largest <= least) return std::nullopt;
     change.usual = std::sqrt(std::max(mean_square(lost), mean_square(gained)));
     change.radius = radius_near(before, distance_to(before), change.place);

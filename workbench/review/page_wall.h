@@ -12,6 +12,7 @@ namespace vesselbench {
 /// that says nothing of the wall.
 struct WallChange {
     double largest = 0.0;          ///< deviation [mm]
+    bool inward = false;           ///< the vessel is narrower there
     double usual = 0.0;            ///< root of the mean square deviation all over the wall [mm]
     Vec3 place = Vec3::Zero();     ///< of the largest [mm]
     std::optional<double> radius;  ///< of the vessel there, before the edit [mm]
@@ -26,12 +27,22 @@ struct WallChange {
 /// Vertices of caps and of open borders, and their neighbours, #V.
 [[nodiscard]] std::vector<bool> vertices_at_ends(const Surface& surface);
 
-/// How far the vertices of a surface are from another one; where one of the two is at an end, 0.
-/// \param closest of `to`, #V of `of`; a vertex that has not moved has the distance 0
+/// Distances of a surface's vertices from another one, #V [mm]; positive where they are outside of
+/// it.
+/// \param closest of the other surface, #V; a vertex that has not moved has the distance 0
+[[nodiscard]] std::vector<double> signed_distances(const Surface& of, const SurfaceDistance& other,
+                                                   std::span<const SurfacePoint> closest);
+
+/// Distances of the wall's vertices alone: where one of the two surfaces is at an end, 0.
+/// \param distances signed_distances() from `to`
+/// \param closest of `to`, #V of `of`
 [[nodiscard]] std::vector<double> wall_deviations(const Surface& of, const Surface& to,
-                                                  std::span<const SurfacePoint> closest);
+                                                  std::span<const SurfacePoint> closest,
+                                                  std::span<const double> distances);
 
 /// The change of the wall by its deviations in both directions; empty: none is larger than `least`.
+/// \param lost wall_deviations() of the surface before
+/// \param gained those of the surface after
 [[nodiscard]] std::optional<WallChange> wall_change(const Surface& before,
                                                     std::span<const double> lost,
                                                     const Surface& after,

@@ -28,6 +28,12 @@ export const neighbourColour = (number) => NEIGHBOURS[number % NEIGHBOURS.length
 
 const RAMP = [[246, 243, 236], [252, 214, 132], [244, 157, 62], [214, 92, 36], [150, 38, 36], [78, 10, 34]];
 
+/** Blue where the wall moved inwards, pale where it stayed, red where it moved outwards. */
+const BOTH_WAYS = [[8, 48, 107], [33, 102, 172], [103, 169, 207], [246, 243, 236], [239, 138, 98], [178, 24, 43], [103, 0, 31]];
+
+/** Of deviations from a least one on, which is negative if some are. */
+export const deviationRamp = (min) => (min < 0 ? BOTH_WAYS : RAMP);
+
 /** Colour of a share in [0, 1]: of the largest deviation, from pale to dark, or on another ramp. @returns {number[]} red, green, blue in [0, 255] */
 export function rampColour(share, ramp = RAMP) {
   const x = Math.min(1, Math.max(0, share)) * (ramp.length - 1);

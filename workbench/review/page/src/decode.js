@@ -105,13 +105,14 @@ export function decodeState(bytes, runs, triangles, patches) {
 /**
  * Deviations of the vertices that a state uses, in the order of their ids.
  * @param {Uint8Array} bytes inflated
+ * @param {number} min deviation of the value 0 [mm]
  * @param {number} max deviation of the value 65535 [mm]
  * @returns {Float32Array} [mm]
  */
-export function decodeDeviation(bytes, max) {
+export function decodeDeviation(bytes, min, max) {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   const out = new Float32Array(bytes.length >> 1);
-  for (let i = 0; i < out.length; ++i) out[i] = (view.getUint16(2 * i, true) / 65535) * max;
+  for (let i = 0; i < out.length; ++i) out[i] = min + (view.getUint16(2 * i, true) / 65535) * (max - min);
   return out;
 }
 

@@ -39,7 +39,13 @@ function earlier(edit) {
     one.comment ? make('p', {}, foreign(one.comment)) : null)));
 }
 
-const why = (items) => (items.length ? make('ul', { class: 'why' }, ...items.map((item) => make('li', {}, make('strong', {}, foreign(item.title, { limit: 120 })), ' ', foreign(item.why)))) : null);
+/** No text twice: warnings are listed further down, and a reason may begin with its title. */
+function reason({ kind, title, why }) {
+  if (kind === 'warning') return ['A warning, listed below.'];
+  return why.includes(title) ? [foreign(why)] : [make('strong', {}, foreign(title, { limit: 120 })), ' ', foreign(why)];
+}
+
+const why = (items) => (items.length ? make('ul', { class: 'why' }, ...items.map((item) => make('li', {}, ...reason(item)))) : null);
 
 /** Title and facts of an edit. */
 export function heading(edit, level = 'h2') {

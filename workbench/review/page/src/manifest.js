@@ -52,7 +52,7 @@ const readValue = (row) => ({ name: text(object(row).name), value: object(row).v
 
 function readDeviation(deviation) {
   const max = number(object(deviation).max_mm);
-  return max === null ? null : { blob: text(deviation.blob), max, measure: text(deviation.measure) };
+  return max === null ? null : { blob: text(deviation.blob), min: number(deviation.min_mm) ?? 0, max, measure: text(deviation.measure) };
 }
 
 function readEdit(edit, states) {

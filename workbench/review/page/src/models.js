@@ -1,6 +1,6 @@
 /** three.js objects of a surface: its patches, its deviation, its mesh lines and what changed in it. */
 import { BufferAttribute, BufferGeometry, Color, DoubleSide, Group, Mesh, MeshLambertMaterial } from 'three';
-import { patchColours, rampColour } from './colours.js';
+import { deviationRamp, patchColours, rampColour } from './colours.js';
 
 const attribute = (values, size) => new BufferAttribute(values, size);
 
@@ -62,9 +62,9 @@ export function makeModel(surface, { colours = patchColours(surface.patches), me
       addExtra('ghost', new Mesh(shared(attribute(corners, 1)), new MeshLambertMaterial({
         color: colour, side: DoubleSide, transparent: true, opacity: 0.5 })));
     },
-    addDeviation(values, max) {
+    addDeviation(values, { min, max }) {
       const own = shared(geometry.index);
-      own.setAttribute('color', vertexColours(values, (value) => rampColour(value / max)));
+      own.setAttribute('color', vertexColours(values, (value) => rampColour((value - min) / (max - min), deviationRamp(min))));
       addExtra('deviation', new Mesh(own, new MeshLambertMaterial({ vertexColors: true, side: DoubleSide })));
     },
     dispose() {

@@ -98,7 +98,7 @@ export class Pool {
   /** Deviations [mm] of the vertices of an edit's surface after it, in their order. */
   async deviation(deviation, surface) {
     const bytes = await this.bytes(deviation.blob, 2 * (surface.points.length / 3));
-    return decodeDeviation(bytes, deviation.max);
+    return decodeDeviation(bytes, deviation.min ?? 0, deviation.max);
   }
 
   /** Grey values of an image slice, row after row. */

@@ -60,7 +60,7 @@ export class Preparer {
     const none = new Uint32Array(0);
     const both = before && after;
     const difference = { added: both ? onlyIn(after, before, this.manifest.triangles) : none, removed: both ? onlyIn(before, after, this.manifest.triangles) : none,
-                         deviation: null, max: edit.deviation?.max ?? 0 };
+                         deviation: null, range: edit.deviation ?? { min: 0, max: 0 } };
     let problem = '';
     if (edit.deviation && after)
       difference.deviation = await this.pool.deviation(edit.deviation, after).catch((error) => { problem = error.message; return null; });

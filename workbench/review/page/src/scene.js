@@ -21,7 +21,7 @@ export class Stage extends Drawing {
   /**
    * Shows the surfaces of an edit.
    * @param {object | null} before @param {object | null} after
-   * @param {{added, removed, deviation, max}} difference corners only in one of them; deviations [mm] of the one after
+   * @param {{added, removed, deviation, range: {min, max}}} difference corners only in one of them; deviations [mm] of the one after
    */
   show(before, after, difference) {
     this.setSurface('before', before);
@@ -31,7 +31,7 @@ export class Stage extends Drawing {
     if (now && difference.added.length) now.addMarked(difference.added, AFTER);
     // Where all of the surface moved a little, a ghost of the old one would only dim the map.
     if (old && now && difference.removed.length && difference.removed.length < before.index.length / 2) old.addGhost(difference.removed, GHOST);
-    if (now && difference.deviation) now.addDeviation(difference.deviation, difference.max);
+    if (now && difference.deviation) now.addDeviation(difference.deviation, difference.range);
     this.redraw();
   }
 

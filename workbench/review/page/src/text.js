@@ -65,8 +65,11 @@ export function figure(value, digits = 4) {
 export function tickTexts(values) {
   const step = Math.abs(values[1] - values[0]) || 1;
   const decimals = Math.min(8, Math.max(0, 1 - Math.floor(Math.log10(step))));
-  return values.map((value) => { const text = value.toFixed(decimals); return Number(text) === 0 ? text.replace('-', '') : text.replace('-', '\u2212'); });
+  return values.map((value) => minus(value.toFixed(decimals)));
 }
+
+/** A number's text with the sign U+2212; zero has none. */
+export const minus = (text) => text.replace('-', Number(text) === 0 ? '' : '\u2212');
 
 /** Value and unit of an argument or figure in plain words. */
 export function inWords({ value, unit }) {

@@ -1,13 +1,13 @@
 /** The middle of the page: 3D view, ways to look, legend, tools, slices. */
 import { calm } from './theme.js';
-import { rampGradient } from './colours.js';
+import { deviationRamp, rampGradient } from './colours.js';
 import { bindClicks } from './drawing.js';
 import { Marks, openingsOf } from './pins.js';
 import { framing, Preparer } from './prepare.js';
 import { MODES, Stage } from './scene.js';
 import { drawScaleBar } from './scale_bar.js';
 import { Slices } from './slices.js';
-import { figure, fill, foreign, make } from './text.js';
+import { figure, fill, foreign, make, minus } from './text.js';
 
 const byId = (id) => document.getElementById(id);
 const MODE_NAMES = { after: 'After', before: 'Before', dissolve: 'Dissolve', side: 'Side by side', deviation: 'Deviation', slices: 'Slices' };
@@ -29,7 +29,6 @@ export class Workplace {
     this.makeModes();
     this.makeTools();
     byId('share').addEventListener('input', (event) => { if (this.stage) { this.stage.share = event.target.value / 100; this.stage.redraw(); } });
-    byId('legend-bar').style.background = rampGradient();
     verdicts.addEventListener('change', () => this.showMarks());
   }
 
@@ -127,13 +126,14 @@ export class Workplace {
       if (this.shown?.difference.added.length && ['after', 'before', 'dissolve', 'side'].includes(this.mode)) byId('legend-text').textContent = 'Blue: new after the edit. Orange: gone or replaced.';
       return;
     }
-    const { max, measure } = this.edit.deviation;
+    const { min, max, measure } = this.edit.deviation;
     const digits = max >= 10 ? 1 : max >= 0.1 ? 2 : 4;
-    const ticks = [1, 0.75, 0.5, 0.25, 0].map((share) => make('span', {}, `${(max * share).toFixed(digits)}${share === 1 ? ' mm' : ''}`));
+    const ticks = [1, 0.75, 0.5, 0.25, 0].map((share) => make('span', {}, `${minus((min + (max - min) * share).toFixed(digits))}${share === 1 ? ' mm' : ''}`));
+    byId('legend-bar').style.background = rampGradient(deviationRamp(min));
     fill(byId('legend-ticks'), ...ticks);
-    byId('legend').setAttribute('aria-label', `Scale from 0 to ${figure(max, 3)} mm`);
+    byId('legend').setAttribute('aria-label', `Scale from ${minus(figure(min, 3))} to ${figure(max, 3)} mm`);
     const ghost = this.stage?.sides.before.model?.extra.ghost;
-    fill(byId('legend-text'), 'Colour: ', foreign(measure || 'deviation', { limit: 100 }), `, 0 to ${figure(max, 3)} mm.`, ghost ? ' Translucent grey: what was there before.' : '');
+    fill(byId('legend-text'), 'Colour: ', foreign(measure || 'deviation', { limit: 100 }), `, ${minus(figure(min, 3))} to ${figure(max, 3)} mm.`, min < 0 ? ' Blue: the wall moved inwards. Red: outwards.' : '', ghost ? ' Translucent grey: what was there before.' : '');
   }
 
   blink() {

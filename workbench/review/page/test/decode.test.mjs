@@ -50,7 +50,10 @@ test('positions and deviations keep their millimetres', () => {
   const out = new Float32Array(6);
   dequantise(Uint16Array.from([0, 65535, 32768, 65535, 0, 0]), [-1, 0, 10, 1, 4, 20], out);
   assert.ok(Math.abs(out[1] - 4) < 1e-6 && Math.abs(out[2] - 15) < 1e-3 && out[0] === -1);
-  assert.ok(Math.abs(decodeDeviation(Uint8Array.from([255, 255, 0, 128]), 2)[1] - 1) < 1e-4);
+  assert.ok(Math.abs(decodeDeviation(Uint8Array.from([255, 255, 0, 128]), 0, 2)[1] - 1) < 1e-4);
+  const [least, none] = decodeDeviation(Uint8Array.from([0, 0, 0, 128]), -2, 2);
+  assert.equal(least, -2);
+  assert.ok(Math.abs(none) < 1e-4);
 });
 
 test('states share what did not change, and differ in what did', async () => {

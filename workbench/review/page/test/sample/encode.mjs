@@ -95,7 +95,7 @@ export class Packer {
     const sorted = [...byId].sort((a, b) => a[0] - b[0]);
     const bytes = Buffer.alloc(2 * sorted.length);
     sorted.forEach(([, value], i) => bytes.writeUInt16LE(Math.round((value / max) * 65535), 2 * i));
-    return { blob: this.put(name, bytes), max_mm: max, measure: 'distance from the surface before the edit' };
+    return { blob: this.put(name, bytes), min_mm: 0, max_mm: max, measure: 'distance from the surface before the edit' };
   }
 }
 
