@@ -41,6 +41,7 @@ export function makeModel(surface, { colours = patchColours(surface.patches), me
   const patches = new Mesh(geometry, materials);
   const group = new Group().add(patches);
   const extra = {};
+  let deviation = null;
   const shared = (index) => {
     const own = new BufferGeometry();
     for (const name of ['position', 'normal']) own.setAttribute(name, geometry.getAttribute(name));
@@ -62,10 +63,15 @@ export function makeModel(surface, { colours = patchColours(surface.patches), me
       addExtra('ghost', new Mesh(shared(attribute(corners, 1)), new MeshLambertMaterial({
         color: colour, side: DoubleSide, transparent: true, opacity: 0.5 })));
     },
-    addDeviation(values, { min, max }) {
-      const own = shared(geometry.index);
-      own.setAttribute('color', vertexColours(values, (value) => rampColour((value - min) / (max - min), deviationRamp(min))));
-      addExtra('deviation', new Mesh(own, new MeshLambertMaterial({ vertexColors: true, side: DoubleSide })));
+    setDeviation(values, { min, max }) { deviation = { values, colourOf: (value) => rampColour((value - min) / (max - min), deviationRamp(min)) }; },
+    /** Whether there is a deviation; its colours are made when it is looked at, not with every edit. */
+    deviation() {
+      if (deviation && !extra.deviation) {
+        const own = shared(geometry.index);
+        own.setAttribute('color', vertexColours(deviation.values, deviation.colourOf));
+        addExtra('deviation', new Mesh(own, new MeshLambertMaterial({ vertexColors: true, side: DoubleSide })));
+      }
+      return Boolean(deviation);
     },
     dispose() {
       for (const mesh of [patches, ...Object.values(extra)]) {

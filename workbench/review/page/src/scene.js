@@ -31,7 +31,7 @@ export class Stage extends Drawing {
     if (now && difference.added.length) now.addMarked(difference.added, AFTER);
     // Where all of the surface moved a little, a ghost of the old one would only dim the map.
     if (old && now && difference.removed.length && difference.removed.length < before.index.length / 2) old.addGhost(difference.removed, GHOST);
-    if (now && difference.deviation) now.addDeviation(difference.deviation, difference.range);
+    if (now && difference.deviation) now.setDeviation(difference.deviation, difference.range);
     this.redraw();
   }
 
@@ -65,7 +65,7 @@ export class Stage extends Drawing {
     const { lamp, model } = this.sides[name];
     this.aimLamp(lamp);
     if (!model) return;
-    const map = this.mode === 'deviation' && !this.blinkSide && model.extra.deviation;
+    const map = this.mode === 'deviation' && !this.blinkSide && model.deviation();
     if (this.lines) model.addLines(0x202028);
     for (const [kind, mesh] of Object.entries(model.extra))
       mesh.visible = (kind === 'lines' && this.lines) || (kind === 'deviation' && Boolean(map)) || (kind === 'marked' && this.mark && !map);
