@@ -2,8 +2,8 @@
 """Prepares the bundled case and every surface and image of ../shared/data for flow simulation and for printing, checks
 the products itself and with OpenFOAM and PrusaSlicer, and writes the table docs/acceptance.md, with the forest's
 results from docs/forest.md beside it. A run of every case ends with one row of every page of figures measured again
-(`scripts/experiments.py --repeat` and so on), so that no page goes stale unseen, and with the review page's tests in Firefox
-(`scripts/firefox`).
+(`scripts/experiments.py --repeat` and so on), so that no page goes stale unseen, with the review page's tests in Firefox
+(`scripts/firefox`), and with the package in a bare Debian 12 (`scripts/try_package`).
 
   scripts/acceptance.py [--only NAME]... [--goal cfd|rp] [--out FOLDER] [--no-table] [--quick] [--no-solve]
   scripts/acceptance.py --forest       only renews the forest's part of docs/acceptance.md
@@ -484,7 +484,7 @@ def main():
     whole = not (options.quick or options.only or options.goal)
     if whole and not options.no_table:
         write_table(rows, os.path.join(ROOT, "docs", "acceptance.md"), revision)
-    repeated = worst_code([*REPEATS, "firefox"]) if whole else 0
+    repeated = worst_code([*REPEATS, "firefox", "try_package"]) if whole else 0
     if repeated == 1 or tube or any(r["must"] and (r["code"] != 0 or r["failures"]) for r in rows):
         return 1
     return repeated if os.path.isdir(DATA) else 77

@@ -14,6 +14,7 @@
 #include "workbench/commands/measuring_commands.h"
 #include "workbench/commands/preparing_commands.h"
 #include "workbench/commands/project_commands.h"
+#include "workbench/commands/shell/shell_commands.h"
 #include "workbench/phantoms/phantom_json.h"
 
 namespace vesselbench {
@@ -91,20 +92,22 @@ void set_up(CommandLine& line) {
     add_measuring_commands(line);
     add_operations(line);
     add_phantom(line);
+    add_shell_commands(line);
 }
 
 std::vector<std::string> command_names(const CLI::App& app) {
     std::vector<std::string> names;
     for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
-        names.push_back(command->get_name());
+        if (!command->get_group().empty()) names.push_back(command->get_name());
     return names;
 }
 
 void refuse_unknown_command(const CLI::App& app, const std::vector<std::string>& arguments) {
     if (arguments.empty() || arguments.front().starts_with("-")) return;
-    const std::vector<std::string> names = command_names(app);
     const std::string& name = arguments.front();
-    if (std::ranges::find(names, name) != names.end()) return;
+    const auto is_meant = [&](const CLI::App* command) { return command->get_name() == name; };
+    if (!app.get_subcommands(is_meant).empty()) return;
+    const std::vector<std::string> names = command_names(app);
     throw UsageError("there is no command '" + name + "' in this version" +
                      did_you_mean(name, names) + " (the commands are " + joined(names) + ")");
 }

@@ -47,7 +47,9 @@ std::string prepare_footer() {
 void add_input(CLI::App& command, InputArguments& input) {
     command
         .add_option("INPUT", input.input,
-                    "A surface, an image, a folder of DICOM slices, or a case folder")
+                    "A surface, an image, a folder of DICOM slices, a case folder, or the name of "
+                    "a bundled\n"
+                    "case: aneurysm")
         ->required()
         ->type_name("");
     command.add_option("--mask", input.mask, "Segmentation of the image, on the same grid")

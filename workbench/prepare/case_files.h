@@ -9,6 +9,9 @@ namespace vesselbench {
 // A case from a stranger must not lead to the user's other files: what it names is inside its
 // folder, after links are resolved.
 
+/// The description of a case, in its folder.
+inline constexpr const char* kCaseFile = "case.json";
+
 /// The file that case.json names; empty if it has no such key.
 /// \throw IoError if there is no such file, InvalidInput if it is outside the folder
 [[nodiscard]] std::filesystem::path case_file(const std::filesystem::path& folder,

@@ -18,6 +18,7 @@
 #include "workbench/operations/shared/foreign_surface.h"
 #include "workbench/operations/table.h"
 #include "workbench/phantoms/phantom_json.h"
+#include "workbench/prepare/bundled_cases.h"
 #include "workbench/prepare/case_files.h"
 
 namespace vesselbench {
@@ -26,8 +27,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-constexpr const char* kCaseFile = "case.json";
 
 /// A new folder for files with the lifetime of the input.
 class TemporaryFolder {
@@ -57,6 +56,13 @@ private:
 fs::path plain_path(const std::string& text) {
     fs::path path(text);
     return path.has_filename() ? path : path.parent_path();  // "cases/aneurysm/"
+}
+
+/// A name that is no file may be that of a bundled case.
+fs::path input_path(const std::string& text) {
+    const fs::path path = plain_path(text);
+    const fs::path bundled = file_exists(path) ? fs::path() : bundled_case(text);
+    return bundled.empty() ? path : bundled;
 }
 
 void make_phantom_files(Input& input, PhantomDescription description, const Progress& progress) {
@@ -175,7 +181,7 @@ RecipeEntry source_entry(const Input& input) {
 
 Input resolve_input(const InputOptions& options, const Progress& progress) {
     Input input;
-    const fs::path path = plain_path(options.input);
+    const fs::path path = input_path(options.input);
     input.name = path.filename().string();
     if (!file_exists(path)) throw IoError("'" + input.name + "' does not exist");
     refuse_special_file(path);

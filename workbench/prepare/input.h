@@ -17,7 +17,7 @@ namespace vesselbench {
 /// The user's INPUT.
 struct InputOptions {
     std::string
-        input;  ///< a surface, an image, a folder of DICOM slices, or a folder with case.json
+        input;  ///< a surface, an image, a folder of DICOM slices or with case.json, a bundled case
     std::string mask;   ///< image file on the same grid; empty: none, or the case's own
     std::string units;  ///< "mm", "cm" or "m"; empty: as the file says, or the only one that fits
     /// Structures beside the vessel, each a surface file, or labels of the label map, "7" or "7,8".

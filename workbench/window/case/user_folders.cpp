@@ -70,14 +70,6 @@ bool is_writable_folder(const fs::path& folder) {
     return is_folder(folder) && ::access(folder.c_str(), W_OK | X_OK) == 0;
 }
 
-fs::path bundled_cases_folder() {
-    std::error_code error;
-    fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
-    for (; !error && folder != folder.root_path(); folder = folder.parent_path())
-        if (fs::exists(folder / "cases" / "aneurysm" / "case.json", error)) return folder / "cases";
-    return {};
-}
-
 fs::path free_file(const fs::path& wanted) {
     fs::path file = wanted;
     std::error_code error;

@@ -19,9 +19,6 @@ namespace vesselbench {
 /// A file in it can be created.
 [[nodiscard]] bool is_writable_folder(const std::filesystem::path& folder);
 
-/// The folder with the bundled cases, found from the program upward; empty: none.
-[[nodiscard]] std::filesystem::path bundled_cases_folder();
-
 /// The name itself if no file has it, else the first free one of "a-2.png", "a-3.png" ...
 [[nodiscard]] std::filesystem::path free_file(const std::filesystem::path& wanted);
 

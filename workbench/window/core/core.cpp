@@ -5,6 +5,7 @@
 
 #include "geometry/kernel/errors.h"
 #include "workbench/operations/table.h"
+#include "workbench/prepare/bundled_cases.h"
 #include "workbench/window/case/user_folders.h"
 #include "workbench/window/form/picked_text.h"
 

@@ -6,6 +6,7 @@
 #include <imgui.h>
 
 #include "workbench/phantoms/phantom_json.h"
+#include "workbench/prepare/bundled_cases.h"
 #include "workbench/window/case/readable.h"
 #include "workbench/window/case/user_folders.h"
 #include "workbench/window/features/history/thumbnail_drawing.h"

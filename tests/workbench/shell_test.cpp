@@ -1,0 +1,80 @@
+// Completions of shells, and the manual page.
+
+#include <catch2/catch.hpp>
+
+#include "tests/support/paths.h"
+#include "tests/support/program.h"
+#include "tests/support/shapes.h"
+#include "tests/support/skip.h"
+
+using namespace vesselbench;
+using namespace vesselbench::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+/// A file with what the command prints.
+std::string printed(const std::vector<std::string>& arguments) {
+    const ProgramRun run = run_program(test::program_path(), arguments);
+    REQUIRE(run.exit_code == 0);
+    const std::string file = temporary_folder() + "/printed";
+    write_text(file, run.out);
+    return file;
+}
+
+bool has_program(const std::string& name) {
+    return run_program("/bin/sh", {"-c", "command -v " + name}).exit_code == 0;
+}
+
+/// What bash offers for the last of these words.
+std::string offered(const std::string& words) {
+    static const std::string file = printed({"completion", "bash"});
+    const std::string script = "source " + file + "; COMP_WORDS=(vesselbench " + words +
+                               "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _vesselbench; "
+                               "echo \"${COMPREPLY[*]}\"";
+    const ProgramRun run = run_program("/bin/bash", {"-c", script});
+    CHECK(run.err.empty());
+    return run.out;
+}
+
+}  // namespace
+
+SCENARIO("bash completes what the tables hold", "[workbench][shell]") {
+    CHECK(offered("pre") == "prepare\n");
+    CHECK(offered("prepare in.stl --for ''") == "cfd rp planning simulation\n");
+    CHECK(offered("prepare in.stl --re") == "--recipe --resume\n");
+    CHECK_THAT(offered("apply p.vbench re"), Contains("remesh") && Contains("repair"));
+    CHECK(offered("apply p.vbench smooth it") == "iterations=\n");
+    CHECK(offered("apply p.vbench smooth filter = la") == "laplace laplace-hc\n");
+    THEN("where nothing fits, the shell completes files") {
+        CHECK(offered("prepare ''") == "\n");
+        CHECK(offered("measure ''") == "\n");
+    }
+    THEN("hidden commands are not offered") {
+        CHECK(offered("manu") == "\n");
+    }
+}
+
+SCENARIO("Other shells read their completions", "[workbench][shell]") {
+    for (const std::string shell : {"zsh", "fish"}) {
+        if (!has_program(shell)) {
+            skip("no " + shell);
+            continue;
+        }
+        const ProgramRun read = run_program(shell, {"-n", printed({"completion", shell})});
+        INFO(read.err);
+        CHECK(read.exit_code == 0);
+    }
+    CHECK(run_program(test::program_path(), {"completion", "tcsh"}).exit_code == 2);
+}
+
+SCENARIO("The manual page explains every command and lists every operation", "[workbench][shell]") {
+    const ProgramRun manual = run_program(test::program_path(), {"manual"});
+    CHECK_THAT(manual.out, Contains(".SS \"prepare INPUT\"") && Contains("clip\\-opening") &&
+                               Contains(".SH EXIT STATUS"));
+    if (!has_program("groff")) return skip("no groff");
+    const ProgramRun read =
+        run_program("groff", {"-man", "-ww", "-z", "-Tutf8", printed({"manual"})});
+    CHECK(read.err.empty());
+    CHECK(read.exit_code == 0);
+}

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "workbench/case/operation.h"
+#include "workbench/commands/shell/command_rows.h"
+
+namespace vesselbench {
+
+/// The script by which fish completes commands, options and their choices, operations and their
+/// parameters, and files where none of these fits; for
+/// /usr/share/fish/vendor_completions.d/vesselbench.fish.
+[[nodiscard]] std::string fish_completion(std::span<const CommandRow> commands,
+                                          std::span<const Operation> operations);
+
+}  // namespace vesselbench

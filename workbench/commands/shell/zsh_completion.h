@@ -1,0 +1,17 @@
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "workbench/case/operation.h"
+#include "workbench/commands/shell/command_rows.h"
+
+namespace vesselbench {
+
+/// The script by which zsh completes commands, options and their choices, operations and their
+/// parameters, and files where none of these fits; for
+/// /usr/share/zsh/vendor-completions/_vesselbench.
+[[nodiscard]] std::string zsh_completion(std::span<const CommandRow> commands,
+                                         std::span<const Operation> operations);
+
+}  // namespace vesselbench
