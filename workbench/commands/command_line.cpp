@@ -62,6 +62,14 @@ void add_phantom(CommandLine& line) {
     add_json(command, options->json);
 }
 
+void add_doctor(CommandLine& line) {
+    const auto json = std::make_shared<bool>(false);
+    CLI::App& command = add_command(
+        line, "doctor", "Say what the program finds here, what is missing, and how to get it",
+        [json] { return check_system(*json), 0; });
+    add_json(command, *json);
+}
+
 void add_window(CommandLine& line) {
     CLI::App& command =
         add_command(line, "open", "Open a project, a surface, an image or a case in the window",
@@ -92,6 +100,7 @@ void set_up(CommandLine& line) {
     add_measuring_commands(line);
     add_operations(line);
     add_phantom(line);
+    add_doctor(line);
     add_shell_commands(line);
 }
 

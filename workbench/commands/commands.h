@@ -24,6 +24,9 @@ struct OperationsOptions {
 /// Prints the operation table, or one operation with its parameters.
 void list_operations(const OperationsOptions& options);
 
+/// Prints what of the system the program uses, what is missing, and how to get it.
+void check_system(bool json);
+
 struct ApplyOptions {
     std::string project;
     std::string operation;

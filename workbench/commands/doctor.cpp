@@ -1,0 +1,167 @@
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+#include <thread>
+
+#include <nlohmann/json.hpp>
+
+#include "geometry/kernel/diagnosed_error.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/wording.h"
+#include "gpu/context.h"
+#include "gpu/device.h"
+#include "workbench/case/json_text.h"
+#include "workbench/case/version.h"
+#include "workbench/commands/commands.h"
+#include "workbench/commands/console.h"
+#include "workbench/prepare/bundled_cases.h"
+#include "workbench/review/page_file.h"
+#include "workbench/review/review_page_bytes.h"
+#include "workbench/worker/sandbox.h"
+
+namespace vesselbench {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+/// Below them a preparation may stop half way.
+constexpr double kLittleMemory = 2.0, kLittleDisk = 1.0;  ///< [GiB]
+
+struct Check {
+    std::string name;
+    std::string value;
+    std::string lacking;  ///< what does not work, and how to get it; empty: all is well
+};
+
+std::string gibibytes(double size) {
+    return formatted(size, "%.1f GiB");
+}
+
+/// A line of /proc/meminfo [GiB]; 0: it has none.
+double memory(const std::string& key) {
+    std::ifstream lines("/proc/meminfo");
+    for (std::string line; std::getline(lines, line);)
+        if (line.starts_with(key + ":"))
+            return std::strtod(line.c_str() + key.size() + 1, nullptr) / (1024.0 * 1024.0);
+    return 0.0;
+}
+
+Check memory_check() {
+    const double free = memory("MemAvailable");
+    return {
+        "memory", gibibytes(free) + " free of " + gibibytes(memory("MemTotal")),
+        free < kLittleMemory ? "large images and meshes may not fit: close other programs" : ""};
+}
+
+Check disk_check(const std::string& name, const fs::path& folder) {
+    std::error_code error;
+    const double free = static_cast<double>(fs::space(folder, error).available) / (1U << 30U);
+    if (error) return {name, "unknown", "the folder cannot be read"};
+    return {name, gibibytes(free) + " free",
+            free < kLittleDisk ? "projects and meshes may not fit: free some space" : ""};
+}
+
+Check opengl_check() {
+    try {
+        const OffscreenContext context;
+        const DeviceLimits limits = current_device().limits;
+        return {"OpenGL",
+                std::to_string(limits.major) + "." + std::to_string(limits.minor) + " by " +
+                    limits.renderer,
+                ""};
+    } catch (const GpuUnavailable& error) {
+        return {"OpenGL", error.what(),
+                "there are no pictures and no window: install the graphics card's driver, or "
+                "Mesa's (apt install libegl1 libgl1-mesa-dri)"};
+    }
+}
+
+Check display_check() {
+    for (const char* name : {"WAYLAND_DISPLAY", "DISPLAY"})
+        if (const char* value = std::getenv(name); value != nullptr && *value != '\0')
+            return {"display", value, ""};
+    return {"display", "none", "the window cannot open here; the command line works without it"};
+}
+
+Check sandbox_check() {
+    const Sandbox sandbox = available_sandbox();
+    if (sandbox.files && sandbox.calls) return {"sandbox", "files and system calls", ""};
+    return {"sandbox",
+            sandbox.calls   ? "system calls only"
+            : sandbox.files ? "files only"
+                            : "none",
+            "damaged or hostile input is less confined: this system offers no more"};
+}
+
+Check page_check() {
+    try {
+        require_page(review_page_bytes());
+        return {"review page", "built in", ""};
+    } catch (const DiagnosedFailure&) {
+        return {"review page", "not built in",
+                "`review --out` and `export model.html` refuse: build again with npm"};
+    }
+}
+
+Check program_check(const std::string& name, const std::string& program,
+                    const std::string& lacking) {
+    const char* path = std::getenv("PATH");
+    std::istringstream folders(path == nullptr ? "" : path);
+    for (std::string folder; std::getline(folders, folder, ':');) {
+        std::error_code ignored;
+        if (fs::is_regular_file(fs::path(folder) / program, ignored))
+            return {name, (fs::path(folder) / program).string(), ""};
+    }
+    return {name, "not found", lacking};
+}
+
+Check bundled_check() {
+    const bool found = !bundled_case("aneurysm").empty();
+    return {"bundled case", found ? "aneurysm" : "not found",
+            found ? "" : "`prepare aneurysm` refuses: install again"};
+}
+
+std::vector<Check> checks() {
+    return {{"vesselbench", version(), ""},
+            {"processors", std::to_string(std::thread::hardware_concurrency()), ""},
+            memory_check(),
+            disk_check("this folder", fs::current_path()),
+            disk_check("temporary files", fs::temp_directory_path()),
+            opengl_check(),
+            display_check(),
+            sandbox_check(),
+            page_check(),
+            bundled_check(),
+            program_check("OpenFOAM", "simpleFoam",
+                          "cases are written, but cannot be run here: apt install openfoam"),
+            program_check("OpenSSH", "ssh-keygen",
+                          "signatures cannot be verified: apt install openssh-client")};
+}
+
+}  // namespace
+
+void check_system(bool json) {
+    const std::vector<Check> found = checks();
+    if (json) {
+        Json rows = Json::array();
+        for (const Check& check : found)
+            rows.push_back({{"check", check.name},
+                            {"ok", check.lacking.empty()},
+                            {"value", check.value},
+                            {"lacking", check.lacking}});
+        std::cout << text_from_json({{"checks", rows}}, 2) << "\n";
+        return;
+    }
+    std::vector<std::vector<std::string>> rows;
+    for (const Check& check : found) {
+        rows.push_back({check.name, check.value});
+        if (!check.lacking.empty()) rows.push_back({"", "! " + check.lacking});
+    }
+    std::cout << as_columns(rows);
+}
+
+}  // namespace vesselbench
