@@ -104,6 +104,29 @@ constexpr CatalogueText kTexts[] = {
     {"dab-too-far",
      "the place {given} is {distance_mm:%.4g} mm away from the surface, more than {radii:%.0f} "
      "radii: give a point on it, as the nearest one, {place}"},
+    {"brush-coarse",
+     "the triangles near {place} have edges of {edge_mm} mm, too coarse for a brush with a radius "
+     "of {radius_mm} mm: {fix} refines them there"},
+    {"no-contact",
+     "the lumen has no waist near {place}: no two vessels touch there; give the tool's {fix}, or a "
+     "place on the wall of the contact"},
+    {"stamp-touches-nothing",
+     "the tool at {place} does not cut the vessel's wall: it lies beside it, or inside the lumen; "
+     "give another {fix}"},
+    {"stamp-swallows",
+     "the tool at {place} contains the wall around it[, and would change {volume_percent:%.0f} % of "
+     "the vessel's volume]: make it smaller, or give another {fix}"},
+    {"stamp-cuts-opening",
+     "the tool at {place} cuts the cap of {opening}: give another {fix}, or make the tool smaller"},
+    {"stamp-too-thin",
+     "the tool at {place} is {thickness_mm} mm thick, thinner than the triangles allow (edges of "
+     "{edge_mm} mm): refine them with {fix}"},
+    {"stamp-degenerate",
+     "the tool at {place} meets the wall in a way that cannot be resolved: it only touches it, or "
+     "the wall crosses itself there; give another {fix}"},
+    {"stamp-crosses",
+     "the stamped wall would pass through another wall near {place}: use a smaller {fix}, or {fix2} "
+     "first if the surface crosses itself"},
     {"brush-crosses-walls",
      "{vertices#vertex|vertices} moved less than the brush would have moved them, first near "
      "{place}: walls would have passed through each other[; {crossings#pair of triangles still "

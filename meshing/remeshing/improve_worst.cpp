@@ -136,6 +136,7 @@ std::optional<TargetPlace> ShapeImprover::better_place(VertexId v, double first_
                                           {-kHalf, kHalf}, {kHalf, -kHalf}};
     std::optional<TargetPlace> found;
     if (mesh().leaving(v) == EditMesh::kNone || state_.is_hub(v) || state_.rests(v)) return found;
+    if (state_.is_anchored(v)) return found;
     const RemeshState::VertexKind kind = state_.kind_of(v);
     if (kind.features != 0 && kind.features != 2) return found;
     Vec3 at = mesh().points[v];

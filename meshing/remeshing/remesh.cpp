@@ -16,26 +16,15 @@
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/repair/repair.h"
 #include "meshing/remeshing/carried_attributes.h"
-#include "meshing/remeshing/improve_worst.h"
 #include "meshing/remeshing/local_radius.h"
-#include "meshing/remeshing/remesher.h"
+#include "meshing/remeshing/remesh_rounds.h"
 #include "meshing/remeshing/sizing_field.h"
 
 namespace vesselbench {
 
 namespace {
 
-constexpr int kRounds = 8;      // of split, collapse, flip, relax
-constexpr int kMendRounds = 5;  // of the same around bad places
-/// In the first round edges are split well below the target length [-]: the following collapses
-/// then remove the pattern of a coarse source.
-constexpr double kFirstSplit = 0.8;
-
-/// While the mesh is still settling, edges are split earlier than later on [-].
-constexpr double kEarlySplit = 1.2;
-constexpr int kEarlyRounds = 4;
-
-constexpr int kFinalRounds = 5;         // of flip and relax: sizes have settled, angles follow
+constexpr int kMendRounds = 5;          // of the same around bad places
 constexpr int kMostAttempts = 3;        // to remove bad places, finer there each time
 constexpr double kLeastQuality = 0.36;  // of 1 - skewness and radius ratio; solvers want 0.35
 constexpr double kFiner = 0.6;
@@ -44,59 +33,7 @@ constexpr double kEdgePerRadius = 0.28;              // 22 triangles around
 constexpr double kLeastEdge = 0.2, kMostEdge = 2.0;  // in edges
 constexpr double kThin = 0.01;                       // of the wall's vertices
 
-/// Polishing visits this many triangles in total, but each at least twice: small meshes, with a
-/// larger fraction of rims, need it most and can afford it.
-constexpr std::size_t kPolishBudget = 20000;
-constexpr int kFewestPolishRounds = 2, kMostPolishRounds = 8;
-
 constexpr double kMostVolumeChange = 0.2;  // [-]
-
-constexpr double kQuality = 0.5;  // below it a triangle is improved individually
-
-/// Angles, once the sizes have settled.
-Surface finished(Remesher& remesher, const Progress& progress) {
-    for (int round = 0; round < kFinalRounds; ++round) {
-        progress.report(0.4 * round / kFinalRounds, "improving triangles");
-        remesher.flip_edges(Remesher::FlipRule::Angle);
-        remesher.relax(Remesher::RelaxRule::Shape);
-    }
-    const int polish_rounds = std::clamp(
-        static_cast<int>(kPolishBudget / std::max<std::size_t>(remesher.mesh.triangle_count(), 1)),
-        kFewestPolishRounds, kMostPolishRounds);
-    for (int round = 0; round < polish_rounds; ++round) {
-        progress.report(0.4 + 0.4 * round / polish_rounds, "improving triangles");
-        polish(remesher);
-    }
-    progress.report(0.8, "improving triangles");
-    improve_worst(remesher, kQuality);
-    remesher.keep_volume();
-    return remesher.result();
-}
-
-double split_limit(int round) {
-    return round == 0 ? kFirstSplit : round < kEarlyRounds ? kEarlySplit : Remesher::kLong;
-}
-
-/// \param first earlier rounds are left out
-void run_rounds(Remesher& remesher, int first, int rounds, const Progress& progress) {
-    remesher.collapse_short_edges();  // before needles are split into many short edges
-    for (int round = first; round < rounds; ++round) {
-        const auto report = [&](double of_round) {
-            progress.report((round - first + of_round) / (rounds - first), "remeshing");
-        };
-        report(0.0);
-        remesher.split_long_edges(split_limit(round));
-        report(0.3);
-        remesher.collapse_short_edges();
-        if (round >= 2 && round + 2 < rounds)
-            remesher.collapse_defects();  // sizes have settled, and settle again
-        report(0.6);
-        remesher.flip_edges(Remesher::FlipRule::Valence);
-        remesher.relax(Remesher::RelaxRule::Size);
-        report(0.8);
-        remesher.relax(Remesher::RelaxRule::Shape);
-    }
-}
 
 /// The most triangles that are made without being asked for: a tetrahedral mesh has ten times as
 /// many.
@@ -138,11 +75,6 @@ void limit_count(const Surface& surface, std::vector<double>& sizes, RemeshRepor
 std::vector<double> target_lengths(std::vector<double> sizes) {
     for (double& size : sizes) size /= Remesher::kStretch;
     return sizes;
-}
-
-Surface remeshed(Remesher& remesher, int first_round, const Progress& progress) {
-    run_rounds(remesher, first_round, kRounds, progress.part(0.0, 0.8));
-    return finished(remesher, progress.part(0.8, 1.0));
 }
 
 bool is_ill_shaped(const Surface& surface, TriangleId t) {
@@ -226,7 +158,7 @@ Surface mended(const Remesher& before, const Surface& cut, const Progress& progr
                            .size;
     Remesher remesher(cut, sizes, cut, progress);
     remesher.rest_beyond(well_shaped_vertices(cut), kRings);
-    Surface result = remeshed(remesher, kRounds - kMendRounds, progress);
+    Surface result = remeshed(remesher, kRemeshRounds - kMendRounds, progress);
     const bool better = ill_shaped_count(result) < ill_shaped && self_intersections(result).empty();
     return better ? result : cut;
 }
@@ -266,7 +198,7 @@ Surface remeshed_until_sound(const Surface& surface, std::vector<double> sizes, 
         refine(surface, places, gradation, sizes);
         remesher.set_sizes(target_lengths(sizes));
         const double from = kFirst + attempt * kMore;
-        result = remeshed(remesher, kRounds - kMendRounds, progress.part(from, from + kMore));
+        result = remeshed(remesher, kRemeshRounds - kMendRounds, progress.part(from, from + kMore));
     }
     return parted(surface, remesher, result, report, progress.part(kLast, 1.0));
 }

@@ -53,6 +53,12 @@ bool RemeshState::is_hub(VertexId v) const {
     return inner_of[v] != EditMesh::kNone && mesh.is_hole(inner_of[v]);
 }
 
+void RemeshState::anchor(std::span<const std::uint8_t> anchored) {
+    anchors.assign(mesh.vertex_count(), EditMesh::kNone);
+    for (VertexId v = 0; v < anchored.size(); ++v)
+        if (anchored[v] != 0) anchors[v] = v;
+}
+
 VertexId RemeshState::split(HalfEdge h) {
     const VertexId a = mesh.origin(h), b = mesh.target(h);
     // Hints on rims are segments, within patches triangles.
@@ -62,6 +68,7 @@ VertexId RemeshState::split(HalfEdge h) {
     inner_of.push_back(is_rim ? EditMesh::kNone : mesh.patch_at(h));
     sizes.push_back(wanted(a, b));
     hints.push_back(near);
+    if (!anchors.empty()) anchors.push_back(EditMesh::kNone);
     return m;
 }
 
@@ -78,6 +85,7 @@ void RemeshState::move(VertexId v, const TargetPlace& place) {
 
 bool RemeshState::may_collapse(HalfEdge h, double limit) const {
     const VertexId a = mesh.origin(h), b = mesh.target(h);
+    if (is_anchored(a)) return false;
     // Edges that are already long may stay so: needles are collapsed first.
     constexpr double kSlack = 1.01 * 1.01;
     const Vec3 &pa = mesh.points[a], &pb = mesh.points[b];
@@ -144,6 +152,7 @@ void RemeshState::compact() {
     gather(sizes);
     gather(hints);
     gather(inner_of);
+    if (!anchors.empty()) gather(anchors);
     if (!resting.empty()) gather(resting);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "geometry/kernel/progress.h"
@@ -50,6 +51,20 @@ struct RemeshState {
     /// True for vertices that no pass may move.
     [[nodiscard]] bool rests(VertexId v) const { return v < resting.size() && resting[v] != 0; }
 
+    /// True for vertices that are neither moved nor removed.
+    [[nodiscard]] bool is_anchored(VertexId v) const {
+        return v < anchors.size() && anchors[v] != EditMesh::kNone;
+    }
+
+    /// An edge of a rim that no pass may split.
+    [[nodiscard]] bool is_anchored_rim(HalfEdge h) const {
+        return is_anchored(mesh.origin(h)) && is_anchored(mesh.target(h)) && mesh.is_feature(h);
+    }
+
+    /// From now on these vertices of the start stay where they are, and are part of the result.
+    /// \param anchored 1 at them, by vertex of the start
+    void anchor(std::span<const std::uint8_t> anchored);
+
     [[nodiscard]] double wanted(VertexId a, VertexId b) const {
         return 0.5 * (sizes[a] + sizes[b]);
     }
@@ -82,6 +97,8 @@ struct RemeshState {
     std::vector<TriangleId> hints;        ///< by vertex: the source's triangle where searches begin
     std::vector<std::uint32_t> inner_of;  ///< by vertex: its patch; kNone on rims
     std::vector<std::uint8_t> resting;    ///< by vertex; those beyond the end do not rest
+    /// By vertex: its number in the start if it is anchored, else kNone; empty: none is.
+    std::vector<VertexId> anchors;
     Progress cancel;
     unsigned turns = 0;  ///< of loops
 };

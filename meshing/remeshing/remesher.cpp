@@ -77,6 +77,7 @@ double cotangent(const Vec3& at, const Vec3& p, const Vec3& q) {
 bool Remesher::is_long(HalfEdge h, double limit) const {
     const VertexId a = mesh.origin(h), b = mesh.target(h);
     if (a == EditMesh::kNone || a > b || !is_above(h, limit) || rests(h)) return false;
+    if (is_anchored_rim(h)) return false;
     return !(mesh.is_hole(mesh.patch_at(h)) && mesh.is_hole(mesh.patch_at(mesh.twin(h))));
 }
 
@@ -313,6 +314,7 @@ void Remesher::relax(RelaxRule rule) {
     std::vector<std::optional<TargetPlace>> places(mesh.vertex_count());
     for_all(places.size(), cancel, [&](VertexId v) {
         if (mesh.leaving(v) == EditMesh::kNone || is_hub(v) || RemeshState::rests(v)) return;
+        if (is_anchored(v)) return;
         const VertexKind kind = kind_of(v);
         if (kind.features != 0 && kind.features != 2) return;
         const Vec3 normal = normal_at(v);
@@ -330,7 +332,7 @@ void Remesher::relax(RelaxRule rule) {
 void Remesher::keep_volume() {
     Positions lifted = mesh.points;
     for_all(lifted.size(), cancel, [&](VertexId v) {
-        if (mesh.leaving(v) == EditMesh::kNone || is_hub(v)) return;
+        if (mesh.leaving(v) == EditMesh::kNone || is_hub(v) || is_anchored(v)) return;
         const VertexKind kind = kind_of(v);
         if (kind.features != 0 || target.plane_normal(kind.p)) return;
         const Vec3 normal = normal_at(v);

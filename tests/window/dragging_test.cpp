@@ -248,3 +248,33 @@ SCENARIO("An edit that is pointed at is lit up where it was made", "[window][pic
         CHECK(shell.has("view.edit.2"));
     }
 }
+
+SCENARIO("A stamp's tool is dragged in the view, and applied", "[window][handles]") {
+    const Dragging view("local-repair", "stamp");
+    if (!view.shell) return;
+    view.type("shape", "capsule");
+    view.type("mode", "add");
+    view.type("at", "4,0,15");
+    CHECK(view.text("centre").empty());
+    view.drag("tool.centre", {1, 0, 2});
+    const Vec3 centre = view.place().form()->arguments().point("centre");
+    CHECK((centre - Vec3(5, 0, 17)).norm() < 4 * pixel(view));
+    view.drag("tool.direction", {0, 0, 1});
+    CHECK(view.place().form()->arguments().point("direction").z() > 0.1);
+    const double before = volume(*view.place().document.shown()->surface);
+    REQUIRE(view.shell->click_item("operation.apply"));
+    REQUIRE(wait_until_idle(*view.shell));
+    CHECK(volume(*view.place().document.shown()->surface) > before + 1.0);
+}
+
+SCENARIO("A stamp's path is drawn in the view", "[window][handles]") {
+    const Dragging view("local-repair", "stamp");
+    if (!view.shell) return;
+    view.type("shape", "polygon");
+    REQUIRE(view.shell->has("tool.path.1"));
+    view.drag("tool.path.1", {1, 0, 3});
+    CHECK(list_of(*view.place().form(), "path").size() == 6);
+    view.drag("tool.path.add", {0, 0, 2});
+    CHECK(list_of(*view.place().form(), "path").size() == 9);
+    REQUIRE(view.shell->has("tool.path.2"));
+}

@@ -12,6 +12,7 @@
 #include "workbench/window/features/handles/crop_handles.h"
 #include "workbench/window/features/handles/cut_handles.h"
 #include "workbench/window/features/handles/length_handles.h"
+#include "workbench/window/features/handles/tool_handles.h"
 #include "workbench/window/features/openings/opening_roles.h"
 
 using namespace vesselbench;
@@ -324,4 +325,54 @@ SCENARIO("An opening's role is text of the form", "[window][handles]") {
     CHECK(with_name_switched("", "inlet") == "inlet");
     CHECK(with_name_switched("inlet", "outlet_1") == "inlet,outlet_1");
     CHECK(with_name_switched("inlet,outlet_1", "inlet") == "outlet_1");
+}
+
+SCENARIO("The handles of a stamp's tool set its place, direction and sizes", "[window][handles]") {
+    OperationForm form(find_operation("stamp"));
+    CHECK(has_tool(form));
+    CHECK_FALSE(has_tool(OperationForm(find_operation("crop"))));
+    CHECK(tool_shape(form, kModel).handles.empty());  // nothing is known of it
+    form.set_automatic({{"centre", Vec3(1, 2, 3)},
+                        {"direction", Vec3(0, 0, 1)},
+                        {"along", Vec3(1, 0, 0)},
+                        {"thickness", 1.0},
+                        {"length", 4.0},
+                        {"width", 2.0}});
+    const FormShape shape = tool_shape(form, kModel);
+    const auto texts = [&](const std::string& name, const Vec3& to) {
+        const auto at = std::ranges::find(shape.handles, name, &Handle::name);
+        REQUIRE(at != shape.handles.end());
+        return tool_texts(form, kModel, static_cast<std::size_t>(at - shape.handles.begin()), to);
+    };
+    using Texts = std::vector<FieldText>;
+    CHECK(texts("tool.centre", {5, 6, 7}) == Texts{{"centre", "5,6,7"}});
+    CHECK(texts("tool.direction", {1, 2, 9}) == Texts{{"direction", "0,0,1"}});
+    CHECK(texts("tool.direction", {9, 2, 3}) == Texts{{"direction", "1,0,0"}});
+    CHECK(texts("tool.thickness", {1, 2, 4}) == Texts{{"thickness", "2"}});
+    CHECK(texts("tool.length", {4, 2, 3}) == Texts{{"length", "6"}});
+    CHECK(texts("tool.width", {1, 1.5, 3}) == Texts{{"width", "1"}});
+    CHECK(texts("tool.width", {1, 8, 3}) != Texts{{"width", "-12"}});
+    for (const RegionLine& line : shape.lines)
+        for (const Vec3& p : line.points) CHECK((p - Vec3(1, 2, 3)).cwiseAbs().maxCoeff() <= 2.0);
+}
+
+SCENARIO("The handles of a capsule and of a path", "[window][handles]") {
+    OperationForm form(find_operation("stamp"));
+    fill(form, {{"shape", "capsule"},
+                {"centre", "0,0,5"},
+                {"direction", "0,0,1"},
+                {"radius", "1"},
+                {"length", "4"}});
+    const FormShape capsule = tool_shape(form, kModel);
+    REQUIRE(capsule.handles.size() == 4);
+    CHECK(near(capsule.handles[3].point, {0, 0, 2}));
+    CHECK(tool_texts(form, kModel, 3, {0, 0, 1}) == std::vector<FieldText>{{"length", "6"}});
+    form.set("shape", "polygon");
+    const FormShape offered = tool_shape(form, kModel);
+    REQUIRE(offered.handles.size() == 3);
+    CHECK(offered.lines.front().faint);
+    form.set("path", "0,0,0,4,0,0");
+    CHECK_FALSE(tool_shape(form, kModel).lines.front().faint);
+    CHECK(tool_texts(form, kModel, 2, {6, 1, 0}) ==
+          std::vector<FieldText>{{"path", "0,0,0,4,0,0,6,1,0"}});
 }

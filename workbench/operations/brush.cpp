@@ -9,6 +9,8 @@
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
+#include "meshing/remeshing/local_remesh.h"
+#include "workbench/case/argument_texts.h"
 #include "workbench/operations/brush/dabs.h"
 #include "workbench/operations/shared/crossing_warning.h"
 #include "workbench/operations/table.h"
@@ -21,6 +23,8 @@ using nlohmann::ordered_json;
 
 /// A negative strength deflates and removes weight; there is no negative smoothing.
 constexpr double kWeakest = -1.0, kSmoothWeakest = 0.0;
+
+constexpr double kFewestEdges = 2.0;  ///< to a brush's radius
 
 /// Growth in volume of a surface whose boundary, if any, is unchanged [mm^3].
 double volume_change(const Surface& before, const Surface& after) {
@@ -121,6 +125,7 @@ public:
             outcome.warnings.push_back(
                 {.code = "dabs-without-effect",
                  .figures = {{"dabs", static_cast<double>(stroke_->empty)}}});
+        if (settings_.kind != BrushKind::Weight) warn_if_coarse(stroke_->dabs.front(), outcome);
         BrushStroke ended = stroke_->brush;
         if (settings_.kind != BrushKind::Weight)
             warn_of_crossings(ended.keep_walls_apart(progress), "brush-crosses-walls",
@@ -157,6 +162,21 @@ private:
             }
             stroke.dabs.push_back(dabs[i]);
         }
+    }
+
+    /// Triangles of the brush's size show where it was as corners, or not at all.
+    void warn_if_coarse(const Dab& dab, Outcome& outcome) const {
+        const Vec3& at = dab.anchor.point;
+        const double edge = mean_edge_near(surface_of(before_), *places_, {at, dab.radius});
+        if (kFewestEdges * edge <= dab.radius) return;
+        outcome.warnings.push_back(
+            {.code = "brush-coarse",
+             .place = at,
+             .figures = {{"edge_mm", edge}, {"radius_mm", dab.radius}},
+             .remedies = {{.operation = "remesh",
+                           .arguments = {{"at", to_text(Value(rounded_place(at)))},
+                                         {"within", to_text(Value(dab.radius))}},
+                           .before = true}}});
     }
 
     /// `at` and what belongs to it make one dab; a stroke of several is given by `dabs` alone.

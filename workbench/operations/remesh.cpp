@@ -15,8 +15,10 @@
 #include "geometry/vessel/openings/opening_axis.h"
 #include "meshing/remeshing/feature_regions.h"
 #include "meshing/remeshing/local_radius.h"
+#include "meshing/remeshing/local_remesh.h"
 #include "meshing/remeshing/sizing_field.h"
 #include "workbench/case/measure_json.h"
+#include "workbench/operations/shared/near_place.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {
@@ -118,7 +120,28 @@ void resolve_edges(const RemeshReport& figures, Arguments& resolved) {
     resolved.set("max_edge", figures.max_edge);
 }
 
+Outcome run_near(const Scene& scene, const Arguments& arguments, const Progress& progress) {
+    const Surface& surface = surface_of(scene);
+    const SurfaceDistance places = distance_to(surface);
+    Outcome outcome;
+    outcome.resolved = arguments;
+    const auto near = near_place(surface, places, outcome.resolved);
+    LocalRemeshed remeshed =
+        remesh_near(surface, places, *near, arguments.optional_real("edge"), progress);
+    const LocalRemeshReport& figures = remeshed.report;
+    outcome.resolved.set("edge", figures.edge);
+    outcome.report = std::make_shared<nlohmann::ordered_json>(
+        nlohmann::ordered_json{{"edge_mm", figures.edge},
+                               {"edge_before_mm", figures.edge_before},
+                               {"reach_mm", figures.reach},
+                               {"triangles_replaced", figures.replaced},
+                               {"triangles_new", figures.replacement}});
+    outcome.scene = with_surface(scene, std::move(remeshed.surface));
+    return outcome;
+}
+
 Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) {
+    if (arguments.has("at")) return run_near(scene, arguments, progress);
     const Surface& surface = surface_of(scene);
     Outcome outcome;
     outcome.resolved = arguments;
@@ -145,6 +168,10 @@ Arguments decided_remeshing(const Scene& scene, const CheckedArguments& argument
     const Surface& surface = surface_of(scene);
     Outcome outcome;
     outcome.resolved = arguments;
+    if (const auto near = near_place(surface, distance_to(surface), outcome.resolved)) {
+        if (!arguments->has("edge")) outcome.resolved.set("edge", near->within / kEdgesPerRadius);
+        return outcome.resolved;
+    }
     const auto lines = centerlines(surface, outcome, progress.part(0.0, 0.5));
     resolve_resolution(arguments, outcome.resolved);
     resolve_edges(decided_edges(surface, parameters_from(outcome.resolved), lines.get(),
@@ -195,8 +222,10 @@ std::vector<Parameter> edge_parameters() {
          .choices = {"graded", "uniform"}},
         {.name = "edge",
          .unit = "mm",
-         .help = "edge length at the vessel's typical radius (the median over the wall); "
-                 "default: 0.28 of that radius, which is 22 triangles around",
+         .help =
+             "edge length at the vessel's typical radius (the median over the wall); "
+             "default: 0.28 of that radius, which is 22 triangles around; with at: a quarter of "
+             "within",
          .minimum = 0.0,
          .above_minimum = true},
         {.name = "min_edge",
@@ -260,6 +289,7 @@ std::vector<Parameter> other_parameters() {
 
 std::vector<Parameter> remesh_parameters() {
     std::vector<Parameter> table = edge_parameters();
+    for (Parameter& parameter : near_parameters("remesh")) table.push_back(std::move(parameter));
     for (Parameter& parameter : other_parameters()) table.push_back(std::move(parameter));
     return table;
 }
@@ -277,7 +307,7 @@ Operation remesh_operation() {
         .parameters = remesh_parameters(),
         .run = &run,
         .decided = &decided_remeshing,
-        .thesis = "3.3.2, 4.2.9",
+        .thesis = "3.3.2, 4.2.5, 4.2.8-4.2.9",
         .search = {.parameters = &searched_parameters,
                    .rivals = {"min_edge", "max_edge"},
                    .counts_triangles = true},

@@ -3,17 +3,28 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/measure.h"
+#include "meshing/remeshing/local_subdivide.h"
+#include "workbench/operations/shared/near_place.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {
 
 namespace {
 
+Surface near_subdivided(const Surface& surface, int iterations, Outcome& outcome,
+                        const Progress& progress) {
+    const SurfaceDistance places = distance_to(surface);
+    const auto near = near_place(surface, places, outcome.resolved);
+    return subdivide_near(surface, places, *near, iterations, progress);
+}
+
 Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) {
-    Surface after =
-        subdivide(surface_of(scene), static_cast<int>(arguments.integer("iterations")), progress);
     Outcome outcome;
     outcome.resolved = arguments;
+    const Surface& surface = surface_of(scene);
+    const auto iterations = static_cast<int>(arguments.integer("iterations"));
+    Surface after = arguments.has("at") ? near_subdivided(surface, iterations, outcome, progress)
+                                        : subdivide(surface, iterations, progress);
     outcome.report = std::make_shared<nlohmann::ordered_json>(
         nlohmann::ordered_json{{"mean_edge_mm", mean_edge_length(after)}});
     outcome.scene = with_surface(scene, std::move(after));
@@ -29,6 +40,17 @@ std::vector<SearchedParameter> searched_parameters(const Surface& surface, bool)
     return {iterations};
 }
 
+std::vector<Parameter> subdivide_parameters() {
+    std::vector<Parameter> table = {{.name = "iterations",
+                                     .type = ParameterType::Integer,
+                                     .default_value = std::int64_t{1},
+                                     .help = "each one splits a triangle into four",
+                                     .minimum = 1,
+                                     .maximum = 6}};
+    for (Parameter& parameter : near_parameters("subdivide")) table.push_back(std::move(parameter));
+    return table;
+}
+
 }  // namespace
 
 Operation subdivide_operation() {
@@ -37,14 +59,9 @@ Operation subdivide_operation() {
             .allowed = {Step::Source, Step::Branches, Step::LocalRepair, Step::Openings,
                         Step::Smoothing, Step::Deformation, Step::Remeshing},
             .summary = "split every triangle into four and smooth (Loop); caps stay flat",
-            .parameters = {{.name = "iterations",
-                            .type = ParameterType::Integer,
-                            .default_value = std::int64_t{1},
-                            .help = "each one splits a triangle into four",
-                            .minimum = 1,
-                            .maximum = 6}},
+            .parameters = subdivide_parameters(),
             .run = &run,
-            .thesis = "3.3.1",
+            .thesis = "3.3.1, 4.2.5",
             .search = {.parameters = &searched_parameters},
             .example = {.changed = {{"iterations", std::int64_t{2}}}}};
 }

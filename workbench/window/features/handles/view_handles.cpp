@@ -8,6 +8,7 @@
 #include "workbench/window/features/handles/cut_handles.h"
 #include "workbench/window/features/handles/handles_feature.h"
 #include "workbench/window/features/handles/length_handles.h"
+#include "workbench/window/features/handles/tool_handles.h"
 #include "workbench/window/features/openings/openings_feature.h"
 #include "workbench/window/widgets/ui.h"
 
@@ -60,6 +61,8 @@ void ViewHandles::take_shape(const PanelContext& c) {
         shape_ = crop_shape(*form, *offered);
     else if (!form || model == nullptr)
         return;
+    else if (has_tool(*form))
+        shape_ = tool_shape(*form, bounds(*model));
     else if (has_field(*form, Meaning::Openings))
         shape_ = length_shape(*form, openings_);
     else if (cut_form_ && cut_)
@@ -121,6 +124,9 @@ std::vector<FieldText> ViewHandles::texts(const PanelContext& c, const Vec3& to,
     const OperationForm& before = *c.core.before_drag();
     if (const auto& offered = c.core.get<HandlesFeature>().offered_box())
         return crop_texts(before, *offered, start_.index, to);
+    if (has_tool(before))
+        if (const Surface* model = model_of(c))
+            return tool_texts(before, bounds(*model), start_.index, to);
     if (has_field(before, Meaning::Openings))
         return length_texts(before, start_.openings, start_.index, to, snap);
     if (!start_.cut || !start_.cut_form) return {};
