@@ -39,6 +39,7 @@ namespace vesselbench {
     ROW(brush_weight) \
     ROW(fill_hole) \
     ROW(widen) \
+    ROW(correct_narrowing) \
     ROW(clip_opening) \
     ROW(extrude_opening) \
     ROW(smooth) \
