@@ -95,6 +95,36 @@ constexpr CatalogueText kTexts[] = {
     {"still-narrow",
      "the lumen is still narrow at {places#place}, {width_mm} mm at {place}: inflate it by hand "
      "({fix}), or cut it off"},
+    {"no-narrowing-there",
+     "the vessel is not narrower at {place} than beside it[: the nearest narrowing is that of "
+     "{fix}]; give from and to to widen any stretch"},
+    {"narrowing-at-branch-end",
+     "the place {place} is at a furcation or at the end of a vessel: there is nothing to compare "
+     "its radius with; brush-inflate widens by hand"},
+    {"narrowing-without-vessel",
+     "the stretch at {place} leaves too little of its vessel to compare it with, or has no length"},
+    {"narrowing-at-opening",
+     "the narrowing at {place} ends at an opening or a cap, which must not move: widen it before "
+     "the vessel is opened, or choose a shorter stretch"},
+    {"narrowing-not-a-tube",
+     "the wall around the narrowing at {place} is no tube: another vessel or a sac is joined to it "
+     "there"},
+    {"narrowing-without-room",
+     "the vessel cannot be widened: another wall is {gap_mm} mm away at {place}; a smaller radius "
+     "or strength leaves room"},
+    {"narrowing-would-cross",
+     "the widened wall would pass through itself at {place}: smooth it first, or choose a smaller "
+     "radius or a longer stretch"},
+    {"narrowing-radius-small",
+     "a radius of {radius_mm} mm does not widen the vessel, whose radius is {found_mm} mm at "
+     "{place}: give a larger {fix}"},
+    {"image-shows-narrowing",
+     "the image agrees with the narrowing at {place}: the lumen is as bright as beside it "
+     "({core_percent:%.0f} %) and has a radius of {lumen_mm} mm, not {expected_mm} mm; it may be a "
+     "stenosis"},
+    {"image-undecided-on-narrowing",
+     "the image does not show whether the vessel is narrow at {place}: its core has "
+     "{core_percent:%.0f} % of the contrast beside it"},
     {"dabs-without-effect",
      "{dabs#dab} changed nothing: the strength is 0, the radius is smaller than the triangles, or "
      "the place is on a cap"},

@@ -57,6 +57,17 @@ struct Deletion {
     std::array<int, 3> to = {0, 0, 0};
 };
 
+/// A loss of contrast within a vessel, as of contrast agent that has not spread: largest at the
+/// centre's section, and none beyond the reach (a cosine bell). The lumen keeps its width.
+struct ContrastDip {
+    std::string part;            ///< name of the vessel
+    Vec3 centre = Vec3::Zero();  ///< on the vessel's axis [mm]
+    double reach = 1.0;          ///< from the centre [mm], > 0
+    double core = 0.0;  ///< [-] relative loss on the axis; between axis and wall, it grows with the
+                        ///< square of the distance from the axis
+    double wall = 0.0;  ///< [-] relative loss at the wall
+};
+
 /// How the phantom is imaged and manually segmented.
 struct PhantomImaging {
     Vec3 spacing = Vec3::Constant(0.5);      ///< [mm] along i, j, k
@@ -68,6 +79,7 @@ struct PhantomImaging {
     Vec3 blur = Vec3::Zero();    ///< [mm] standard deviation of the point spread along i, j, k
     double noise = 0.0;          ///< standard deviation of the intensity noise
     double inhomogeneity = 0.0;  ///< [-] largest relative loss of contrast, slowly varying
+    std::vector<ContrastDip> dips;
     std::vector<Deletion> deletions;
     int mask_slice_step = 1;   ///< contours are drawn on every n-th slice and copied to the others
     double mask_jitter = 0.0;  ///< [mm] standard deviation of the drawn contour's offset, per slice

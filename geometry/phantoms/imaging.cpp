@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 #include <tbb/parallel_for.h>
@@ -156,6 +157,34 @@ bool between(const KeptApart& apart, const std::vector<PhantomPart>& parts,
     });
 }
 
+/// Relative loss of contrast at a point [-]. \param radius of the vessel at the dip's centre [mm]
+double dip_loss(const ContrastDip& dip, double radius, const PhantomField& field, const Vec3& p) {
+    const double away = (p - dip.centre).norm() / dip.reach;
+    if (away >= 1.0) return 0.0;
+    const double off_axis = std::clamp(1.0 + field.part(dip.part, p) / radius, 0.0, 1.0);
+    const double loss = dip.core + (dip.wall - dip.core) * off_axis * off_axis;
+    return 0.5 * (1.0 + std::cos(std::numbers::pi * away)) * loss;
+}
+
+/// What is left of the contrast at each voxel's centre after all dips, multiplied into the shares.
+void take_dips(const std::vector<ContrastDip>& dips, const Image& grid, const PhantomField& field,
+               std::vector<float>& share, const Progress& progress) {
+    for (const ContrastDip& dip : dips) {
+        if (!(dip.reach > 0.0)) throw InvalidInput("a contrast dip's reach must be greater than 0");
+        const double radius = -field.part(dip.part, dip.centre);
+        if (!(radius > 0.0))
+            throw InvalidInput("a contrast dip's centre must be inside '" + dip.part + "'");
+        for_rows(grid, progress, kImageText, [&](int j, int k) {
+            for (int i = 0; i < grid.size[0]; ++i) {
+                float& value = share[grid.offset(i, j, k)];
+                if (value > 0.0F)
+                    value *= static_cast<float>(
+                        1.0 - dip_loss(dip, radius, field, grid.to_patient(Vec3(i, j, k))));
+            }
+        });
+    }
+}
+
 /// Slowly varying loss of contrast in [0, 1], one and a half waves over the image along each axis.
 double contrast_loss(const Image& grid, int i, int j, int k, double phase) {
     const double waves = 3.0 * 3.14159265358979;
@@ -174,6 +203,7 @@ Image phantom_image(const PhantomDescription& description, const PhantomField& f
         *filled(image, progress.part(0.0, 0.6), kImageText, [&](int i, int j, int k) {
             return deleted(imaging.deletions, i, j, k) ? 0.0F : occupancy(image, field, i, j, k);
         });
+    take_dips(imaging.dips, image, field, share, progress.silent());
     for (int axis = 0; axis < 3; ++axis)
         if (imaging.blur[axis] > 0.0)
             share = blurred_along(image, share, axis, imaging.blur[axis],

@@ -8,7 +8,8 @@
 namespace vesselbench {
 
 /// The phantom as a scanner sees it: blurred, noisy intensities.
-/// \throw InvalidInput if a spacing is not positive or the image would have over 256 Mi voxels
+/// \throw InvalidInput if a spacing is not positive, the image would have over 256 Mi voxels, or a
+/// contrast dip has no reach or its centre is outside its vessel
 [[nodiscard]] Image phantom_image(const PhantomDescription& description, const PhantomField& field,
                                   const Progress& progress = {});
 

@@ -8,6 +8,7 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/phantoms/exact_surface.h"
 #include "geometry/phantoms/field.h"
+#include "geometry/phantoms/imaging.h"
 #include "tests/support/shapes.h"
 #include "tests/support/stop_at.h"
 
@@ -66,6 +67,35 @@ SCENARIO("A phantom is the same each time, and another seed changes the noise",
     CHECK(*first.image.voxels == *second.image.voxels);
     description.seed = 2;
     CHECK(*first.image.voxels != *make_phantom(description).image.voxels);
+}
+
+SCENARIO("A contrast dip darkens its vessel within its reach, most at the wall",
+         "[geometry][phantom]") {
+    PhantomDescription description;
+    description.parts = {{"tube", VesselShape{{Vec3(0, 0, -15), Vec3(0, 0, 15)}, {3.0, 3.0}}, 0.0}};
+    const PhantomField field(description.parts);
+    const Image whole = phantom_image(description, field);
+    description.imaging.dips = {
+        {.part = "tube", .centre = Vec3::Zero(), .reach = 5.0, .core = 0.3, .wall = 0.8}};
+    const Image dark = phantom_image(description, field);
+    double core = 1.0, wall = 1.0;
+    for (int k = 0; k < dark.size[2]; ++k)
+        for (int j = 0; j < dark.size[1]; ++j)
+            for (int i = 0; i < dark.size[0]; ++i) {
+                const Vec3 p = dark.to_patient(Vec3(i, j, k));
+                if (p.norm() > 5.0) CHECK(dark.at(i, j, k) == whole.at(i, j, k));
+                if (p.norm() > 5.0 || whole.at(i, j, k) < 1000.0F) continue;
+                const double left = dark.at(i, j, k) / 1000.0;
+                if (p.norm() < 0.5) core = std::min(core, left);
+                wall = std::min(wall, left);
+            }
+    CHECK(core == Approx(0.7).margin(0.03));
+    CHECK(wall < 0.4);
+    CHECK(wall > 0.2);
+    description.imaging.dips[0].centre = Vec3(9, 0, 0);
+    CHECK_THROWS_AS(phantom_image(description, field), InvalidInput);
+    description.imaging.dips[0] = {.part = "tube", .reach = 0.0};
+    CHECK_THROWS_AS(phantom_image(description, field), InvalidInput);
 }
 
 SCENARIO("The field of a blended vessel keeps the vessel's radius away from the blend",

@@ -40,6 +40,7 @@ namespace vesselbench {
     ROW(fill_hole) \
     ROW(widen) \
     ROW(stamp) \
+    ROW(correct_narrowing) \
     ROW(clip_opening) \
     ROW(extrude_opening) \
     ROW(smooth) \

@@ -134,6 +134,18 @@ KeptApart kept_apart_from(const Json& json, const std::string& place) {
     return pair;
 }
 
+ContrastDip dip_from(const Json& json, const std::string& place) {
+    JsonFields node(json, place);
+    ContrastDip dip;
+    node.read("part", dip.part);
+    read_vector(node, "centre", dip.centre);
+    node.read("reach", dip.reach);
+    node.read("core", dip.core);
+    node.read("wall", dip.wall);
+    node.refuse_unknown_keys();
+    return dip;
+}
+
 PhantomImaging imaging_from(const Json& json, const std::string& place) {
     JsonFields node(json, place);
     PhantomImaging imaging;
@@ -149,6 +161,9 @@ PhantomImaging imaging_from(const Json& json, const std::string& place) {
     node.read("mask_jitter", imaging.mask_jitter);
     for_each_item(node, "deletions", [&](const Json& item, const std::string& at) {
         imaging.deletions.push_back(deletion_from(item, at));
+    });
+    for_each_item(node, "dips", [&](const Json& item, const std::string& at) {
+        imaging.dips.push_back(dip_from(item, at));
     });
     for_each_item(node, "kept_apart", [&](const Json& item, const std::string& at) {
         imaging.kept_apart.push_back(kept_apart_from(item, at));
