@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "workbench/review/finding_items.h"
 #include "workbench/review/page_file.h"
 #include "workbench/review/page_manifest.h"
 #include "workbench/review/review_page_bytes.h"
@@ -14,11 +15,14 @@ ReviewPage review_page(Session& session, const std::string& variant, const Opera
                        PageImages images, const Progress& progress) {
     require_page(review_page_bytes());
     const std::vector<LogEntry> log = session.log(variant);
-    const PageModels models = page_models(session, log, find, {.images = images}, progress);
+    const PageModels models =
+        page_models(session, log, find, {.images = images}, progress.part(0.0, 0.8));
     std::map<std::string, std::string> blobs = models.geometry.blobs();
     blobs.insert(models.slices.begin(), models.slices.end());
-    const nlohmann::ordered_json manifest =
-        page_manifest(session, variant, log, models, images, find);
+    nlohmann::ordered_json manifest = page_manifest(session, variant, log, models, images, find);
+    nlohmann::ordered_json findings =
+        queue_json(finding_items(session, log, progress.part(0.8, 1.0)));
+    for (nlohmann::ordered_json& item : findings) manifest["queue"].push_back(std::move(item));
     return {filled_page(review_page_bytes(), manifest, blobs), manifest["queue"]};
 }
 
