@@ -83,7 +83,7 @@ SCENARIO("Findings are toured, treated and dismissed", "[window][findings]") {
     WHEN("one is dismissed") {
         REQUIRE(shell->click_item("findings.dismiss.0"));
         REQUIRE(shell->has("findings.reason"));
-        CHECK_FALSE(shell->is_enabled("findings.confirm"));
+        CHECK_FALSE(shell->app().ui().items().at("findings.confirm").enabled);
         REQUIRE(shell->fill_item("findings.reason", "a plaque"));
         REQUIRE(shell->click_item("findings.confirm"));
         REQUIRE(shell->run_until([&] { return count(*shell) == 1; }, 30s));

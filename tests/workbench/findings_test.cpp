@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 
 #include <catch2/catch.hpp>
@@ -13,7 +14,6 @@
 #include "tests/support/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
-#include "tests/support/surface_facts.h"
 #include "workbench/findings/detectors.h"
 #include "workbench/findings/find_findings.h"
 #include "workbench/findings/treatment.h"
@@ -138,8 +138,8 @@ SCENARIO("Faults of the image are found where they are", "[workbench][findings]"
     check_found(scene_of(vessel_with(
                     {{.name = "bump", .shape = SphereShape{.centre = wall, .radius = 1.1}}})),
                 "bump", wall, 2.0);
-    check_found(scene_of(vessel_with({vessel("stub", {0.5, 1, 0}, {-3.5, 1, 0}, 0.8)})), "stub",
-                {-4.0, 1, 0}, 1.5);
+    check_found(scene_of(vessel_with({vessel("stub", {0.5, 1, 0}, {-3.0, 1, 0}, 0.8)})), "stub",
+                {-3.5, 1, 0}, 1.5);
     check_found(
         scene_of(vessel_with({{.name = "apart",
                                .shape = SphereShape{.centre = Vec3(-7, 0, 0), .radius = 1.0}}}),
@@ -197,13 +197,24 @@ SCENARIO("Faults of the triangles are found", "[workbench][findings]") {
 
 SCENARIO("Walls nearly in contact are found, and walls that are not are none",
          "[workbench][findings]") {
-    const auto beside = [](double gap) {
-        return scene_of(merged(fine_tube(2.0, 24.0, 36),
-                               mapped(fine_tube(2.0, 24.0, 36),
-                                      [&](auto p) { return Vec3(p + Vec3(4.0 + gap, 0, 0)); })));
+    // A hairpin of radius 1 mm, whose legs are `gap` apart.
+    const auto hairpin = [](double gap) {
+        const double leg = 10.0, bend = 1.0 + 0.5 * gap;
+        const double length = 2.0 * leg + bend * std::numbers::pi;
+        return scene_of(mapped(fine_tube(1.0, length, 24), [&](const Vec3& p) {
+            const double beyond = p.z() - leg, angle = beyond / bend;
+            if (beyond < 0.0) return Vec3(bend + p.x(), p.y(), beyond);
+            if (angle > std::numbers::pi)
+                return Vec3(-bend - p.x(), p.y(), std::numbers::pi * bend - beyond);
+            const double out = bend + p.x();
+            return Vec3(out * std::cos(angle), p.y(), out * std::sin(angle));
+        }));
     };
-    CHECK_FALSE(of_kind(find_findings(beside(0.2)), "contact").empty());
-    CHECK(of_kind(find_findings(beside(3.0)), "contact").empty());
+    const auto found = of_kind(find_findings(hairpin(0.3)), "contact");
+    REQUIRE_FALSE(found.empty());
+    CHECK(found[0].certainty >= kSure);
+    CHECK(std::abs(found[0].place.x()) < 0.3);
+    CHECK(of_kind(find_findings(hairpin(3.0)), "contact").empty());
 }
 
 SCENARIO("Only the image's voxels make a vessel a thread", "[workbench][findings]") {
@@ -218,9 +229,12 @@ SCENARIO("Only the image's voxels make a vessel a thread", "[workbench][findings
 SCENARIO("Steps of thick slices are found", "[workbench][findings]") {
     PhantomDescription thick = vessel_with({});
     thick.parts = {vessel("oblique", {-8, 0, -8}, {8, 2, 8}, 2.5)};
-    thick.imaging.spacing = Vec3(0.4, 0.4, 1.6);
-    thick.imaging.blur = Vec3::Zero();
-    const auto found = of_kind(find_findings(scene_of(thick)), "staircases");
+    thick.imaging.spacing = Vec3(0.4, 0.4, 1.2);
+    const Image mask = make_phantom(thick).mask;
+    Scene scene;
+    scene.surface = extract_surface(mask, {}, {.method = ExtractionMethod::Labels}).surface;
+    scene.sampling = sampling_of(mask);
+    const auto found = of_kind(find_findings(scene), "staircases");
     REQUIRE(found.size() == 1);
     CHECK(found[0].certainty >= kSure);
     REQUIRE(found[0].treatment() != nullptr);

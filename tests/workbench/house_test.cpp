@@ -406,10 +406,12 @@ bool may_use_vtk(const std::string& file) {
     return room == "geometry/formats" || room == "geometry/image";
 }
 
-/// An operation is registered in operations/table.h, a command is declared in commands.h.
+/// An operation is registered in operations/table.h, a command is declared in commands.h, what looks
+/// for faults in findings/detectors.h.
 bool is_declared_in_a_table(const std::string& source) {
     const fs::path path = source;
     if (path.parent_path() == "workbench/commands") return true;
+    if (path.parent_path() == "workbench/findings") return source.ends_with("_faults.cpp");
     if (path.parent_path() != "workbench/operations") return false;
     const std::regex name("\\b" + path.stem().string() + "(_\\w+)?\\b");
     return std::regex_search(house().at("workbench/operations/table.h").text, name);

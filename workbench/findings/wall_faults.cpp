@@ -25,8 +25,8 @@ constexpr double kLeastBrush = 3.0;  ///< [mean edges]
 /// Bumps and dents are told from noise by their height, in standard deviations of the wall around
 /// and in radii of the vessel: by the one that says less.
 double certainty_of_spot(const WallSpot& spot, double least_height) {
-    constexpr double kEvenScatter = 4.0, kSureScatter = 7.0;
-    constexpr double kEvenHeight = 0.10, kSureHeight = 0.18;
+    constexpr double kEvenScatter = 4.5, kSureScatter = 7.0;
+    constexpr double kEvenHeight = 0.12, kSureHeight = 0.18;
     const double height = std::abs(spot.height);
     if (height < least_height) return certainty_of(0.0, 1.0, 2.0);
     return std::min(certainty_of(height / spot.scatter, kEvenScatter, kSureScatter),
