@@ -170,7 +170,7 @@ def reloaded(project, change):
     run("export", project.project, file)
     write_off(file, *change(*read_off(file)))
     project.project = os.path.join(project.folder, project.name + "-changed.vbench")
-    common.new_project(project.project, file)
+    common.new_project(project.project, file, "--units", "mm")
 
 
 def plant_hole(project, tree, chance):

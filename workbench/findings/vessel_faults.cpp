@@ -213,8 +213,7 @@ std::vector<Finding> find_frayed_ends(FindingSubject& subject, const Progress& p
              .evidence = {.code = "found-frayed-end",
                           .figures = {{"threads", static_cast<double>(trunk.ends.size())},
                                       {"diameter_mm", widest},
-                                      {"trunk_mm", 2.0 * tip_radius(whole.graph, trunk.tip)}},
-                          .remedies = {opened_at(tip)}}});
+                                      {"trunk_mm", 2.0 * tip_radius(whole.graph, trunk.tip)}}}});
     }
     return findings;
 }
