@@ -29,11 +29,11 @@ def skip(reason):
 
 
 # --- the program -----------------------------------------------------------------------------------------------------
-def run(*arguments, program=PROGRAM, folder=None):
-    """What the program prints; RuntimeError with its errors if its exit code is not 0."""
-    done = subprocess.run([program, *map(str, arguments)], capture_output=True, text=True, cwd=folder)
+def run(*arguments, program=None, folder=None):
+    """What the program (none: PROGRAM) prints; RuntimeError with its errors if its exit code is not 0."""
+    done = subprocess.run([program or PROGRAM, *map(str, arguments)], capture_output=True, text=True, cwd=folder)
     if done.returncode != 0:
-        command = " ".join([os.path.basename(program), *map(str, arguments)])
+        command = " ".join([os.path.basename(program or PROGRAM), *map(str, arguments)])
         raise RuntimeError(f"{command}\n{done.stdout[-500:]}{done.stderr[-2000:]}")
     return done.stdout
 

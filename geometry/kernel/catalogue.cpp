@@ -503,6 +503,46 @@ constexpr CatalogueText kTexts[] = {
      "there is no vessel in it: nothing of the closed surface is 1.5 times as long as it is wide; "
      "{fix}, the place of an end, opens it nevertheless"},
 
+    // Findings.
+    {"finding-without-treatment",
+     "no operation treats {finding} by itself: brush there, or choose another threshold"},
+    {"found-self-intersection",
+     "{pairs#pair of triangles intersects|pairs of triangles intersect} within {size_mm} mm: the "
+     "wall passes through itself"},
+    {"found-detached",
+     "a piece of {triangles#triangle}, {length_mm} mm long and {diameter_mm} mm wide, has "
+     "{area_percent:%.2g} % of the area and is not connected to the rest"},
+    {"found-hole",
+     "the wall has a hole with {edges#edge}, {width_mm} mm wide[, where the lumen is {lumen_mm} mm "
+     "wide]: no vessel ends there"},
+    {"found-contact",
+     "two walls are {distance_mm} mm apart, where less than {limit_mm} mm cannot be told from "
+     "vessels that are joined"},
+    {"found-thread",
+     "the lumen is {width_mm} mm wide, less than half a voxel ({limit_mm} mm): the image hardly "
+     "shows it"},
+    {"found-staircases",
+     "{share_percent:%.0f} % of the wall's vertices lie on steps across the image's slices: it "
+     "bends there by more than {tau_theta:%.2g}, at most by {sharpest:%.2g}, where 1 is a right "
+     "angle"},
+    {"found-bump",
+     "the wall rises {height_mm} mm above the smooth tube around it, over a spot {width_mm} mm "
+     "wide; the vessel's radius is {radius_mm} mm, and the wall around scatters by {scatter_mm} "
+     "mm"},
+    {"found-dent",
+     "the wall lies {height_mm} mm below the smooth tube around it, over a spot {width_mm} mm "
+     "wide; the vessel's radius is {radius_mm} mm, and the wall around scatters by {scatter_mm} "
+     "mm"},
+    {"found-stub",
+     "a blind branch is {length_mm} mm long beyond the vessel it leaves, {diameter_mm} mm wide "
+     "(its parent {parent_mm} mm): a bump, a sac, or what is left of a vessel"},
+    {"found-oblique-end",
+     "a flat end, {diameter_mm} mm wide, is tilted by {tilt_deg:%.0f} degrees against the vessel's "
+     "axis, which is known to within {doubt_deg:%.1f} degrees"},
+    {"found-frayed-end",
+     "a vessel {trunk_mm} mm wide ends in {threads#thread} of at most {diameter_mm} mm: its "
+     "contrast fades there"},
+
     // Products.
     {"cells-limited",
      "{wanted:%.0f} cells requested, {reached:%.0f} reached: the surface's edge length limits the "

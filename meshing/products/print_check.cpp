@@ -1,10 +1,14 @@
 #include "meshing/products/print_check.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
+#include <set>
 
 #include <tbb/parallel_for.h>
 
+#include "geometry/kernel/argument_checks.h"
+#include "geometry/kernel/disjoint_sets.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/shortest_paths.h"
@@ -36,8 +40,10 @@ std::vector<std::uint8_t> on_openings(const Surface& surface) {
 }
 
 // Distances along sign * normal from every wall vertex to the opposite wall; nearest first.
+// \param reach farther walls do not count [mm]
 std::vector<Candidate> facing_walls(const Surface& surface, const SurfaceDistance& search,
-                                    double sign) {
+                                    double sign,
+                                    double reach = std::numeric_limits<double>::infinity()) {
     const Positions normals = vertex_normals(surface);
     const auto skipped = on_openings(surface);
     const double lift =
@@ -46,7 +52,7 @@ std::vector<Candidate> facing_walls(const Surface& surface, const SurfaceDistanc
     tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t v) {
         if (skipped[v] != 0 || normals[v].squaredNorm() < 0.5) return;
         const Vec3 direction = sign * normals[v], start = surface.points()[v] + lift * direction;
-        const auto hit = search.first_hit(start, direction);
+        const auto hit = search.first_hit(start, direction, reach);
         if (!hit || surface.patch_of(hit->triangle).kind != PatchKind::Wall) return;
         const Vec3 normal =
             area_normal(surface.points(), surface.triangles()[hit->triangle]).normalized();
@@ -91,6 +97,12 @@ bool near_along_surface(const Surface& surface, VertexId from, const Triangle& t
     return false;
 }
 
+// True if the candidate's walls belong to one fold.
+bool is_fold(const Surface& surface, const Candidate& candidate) {
+    return near_along_surface(surface, candidate.from, surface.triangles()[candidate.triangle],
+                              kDetour * candidate.distance);
+}
+
 FacingPlaces places_of(const Surface& surface, const Candidate& candidate) {
     return {candidate.distance, surface.points()[candidate.from], candidate.to};
 }
@@ -121,13 +133,37 @@ PrintCheck print_check(const Surface& surface, const Progress& progress) {
     if (!across.empty()) check.lumen = places_of(surface, across.front());
     for (const Candidate& candidate : facing_walls(surface, search, 1.0)) {
         progress.check_cancelled();
-        if (near_along_surface(surface, candidate.from, surface.triangles()[candidate.triangle],
-                               kDetour * candidate.distance))
-            continue;
+        if (is_fold(surface, candidate)) continue;
         check.gap = places_of(surface, candidate);
         break;
     }
     return check;
+}
+
+std::vector<FacingPlaces> narrow_gaps(const Surface& surface, double width,
+                                      const Progress& progress) {
+    require_positive("width", width);
+    std::vector<Candidate> narrow;
+    std::vector<std::uint8_t> is_narrow(surface.vertex_count(), 0);
+    for (const Candidate& candidate : facing_walls(surface, distance_to(surface), 1.0, width)) {
+        progress.check_cancelled();
+        if (is_fold(surface, candidate)) continue;
+        narrow.push_back(candidate);
+        is_narrow[candidate.from] = 1;
+    }
+    DisjointSets sets(surface.vertex_count());
+    for (const Candidate& candidate : narrow) {
+        for (const VertexId u : surface.topology->rings().row(candidate.from))
+            if (is_narrow[u] != 0) sets.join(candidate.from, u);
+        for (const VertexId u : surface.triangles()[candidate.triangle])
+            sets.join(candidate.from, u);
+    }
+    std::vector<FacingPlaces> gaps;
+    std::set<VertexId> seen;
+    for (const Candidate& candidate : narrow)  // nearest first
+        if (seen.insert(sets.root(candidate.from)).second)
+            gaps.push_back(places_of(surface, candidate));
+    return gaps;
 }
 
 }  // namespace vesselbench

@@ -40,4 +40,11 @@ struct PrintCheck {
 /// \throw InvalidInput if the surface has no triangle
 [[nodiscard]] PrintCheck print_check(const Surface& surface, const Progress& progress = {});
 
+/// The gaps narrower than `width` [mm] between walls that face each other across the outside and
+/// belong to two branches, as print_check() finds the smallest one; the narrowest first.
+/// Neighbouring vertices and the walls they face are one gap.
+/// \throw InvalidInput if the surface has no triangle or the width is not positive; Cancelled
+[[nodiscard]] std::vector<FacingPlaces> narrow_gaps(const Surface& surface, double width,
+                                                    const Progress& progress = {});
+
 }  // namespace vesselbench

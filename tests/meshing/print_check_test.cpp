@@ -5,8 +5,10 @@
 
 #include <catch2/catch.hpp>
 
+#include "geometry/kernel/errors.h"
 #include "geometry/vessel/centerlines/bends.h"
 #include "tests/support/shapes.h"
+#include "tests/support/surface_facts.h"
 
 using namespace vesselbench;
 
@@ -55,6 +57,21 @@ SCENARIO("the print check measures size, thinnest place and gap", "[meshing][pri
             CHECK_FALSE(print_check(test::open_tube(1.0, 5.0, 12, 6)).is_watertight());
         }
     }
+}
+
+SCENARIO("each narrow gap between two vessels is one place", "[meshing][print]") {
+    const auto beside = [](double gap) {
+        return test::merged(test::fine_tube(1.0, 12.0, 24),
+                            test::mapped(test::fine_tube(1.0, 12.0, 24), [&](const Vec3& p) {
+                                return Vec3(p + Vec3(2.0 + gap, 0, 0));
+                            }));
+    };
+    const auto gaps = narrow_gaps(beside(0.3), 0.5);
+    REQUIRE(gaps.size() == 1);
+    CHECK(gaps[0].distance == Approx(0.3).margin(0.02));
+    CHECK(narrow_gaps(beside(0.3), 0.2).empty());
+    CHECK(narrow_gaps(test::fine_tube(1.0, 12.0, 24), 0.5).empty());
+    CHECK_THROWS_AS(narrow_gaps(beside(0.3), 0.0), InvalidInput);
 }
 
 SCENARIO("the strongest bend of a vessel is found", "[meshing][print]") {

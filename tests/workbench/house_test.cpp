@@ -27,6 +27,7 @@ const std::map<std::string, Names> kDoors = {
     {"geometry/image", {"geometry/kernel"}},
     {"geometry/vessel/centerlines", {"geometry/kernel"}},
     {"geometry/editing", {"geometry/kernel"}},
+    {"geometry/vessel/artefacts", {"geometry/kernel", "geometry/vessel/centerlines"}},
     {"geometry/vessel/ends",
      {"geometry/kernel", "geometry/editing", "geometry/vessel/centerlines"}},
     {"geometry/vessel/openings",
@@ -60,16 +61,21 @@ const std::map<std::string, Names> kDoors = {
     {"workbench/colours",
      {"geometry/kernel", "geometry/vessel/centerlines", "smoothing/context", "meshing/tetrahedra",
       "workbench/case", "workbench/operations", "workbench/report"}},
+    {"workbench/findings",
+     {"geometry/kernel", "geometry/editing", "geometry/vessel", "smoothing/context",
+      "meshing/products", "workbench/case", "workbench/project", "workbench/session",
+      "workbench/operations"}},
     {"workbench/review",
      {"geometry/kernel", "geometry/image", "geometry/formats", "gpu", "workbench/case",
       "workbench/project", "workbench/worker", "workbench/session", "workbench/report",
-      "workbench/colours"}},
+      "workbench/colours", "workbench/findings"}},
     {"workbench/export",
      {"geometry/kernel", "geometry/formats", "meshing/products", "workbench/case",
       "workbench/report", "workbench/colours", "workbench/review"}},
     {"workbench/prepare",
      {"geometry", "meshing/products", "workbench/case", "workbench/session", "workbench/operations",
-      "workbench/export", "workbench/report", "workbench/review", "workbench/phantoms"}},
+      "workbench/findings", "workbench/export", "workbench/report", "workbench/review",
+      "workbench/phantoms"}},
     {"workbench/suggest",
      {"geometry/kernel", "smoothing/quality", "workbench/case", "workbench/project",
       "workbench/worker", "workbench/session", "workbench/operations"}},
@@ -130,6 +136,10 @@ const std::map<std::string, Names> kDoors = {
      {"geometry/kernel", "geometry/vessel/centerlines", "workbench/session", "workbench/colours",
       "workbench/window/case", "workbench/window/drawing", "workbench/window/core",
       "workbench/window/features/live"}},
+    {"workbench/window/features/findings",
+     {"geometry/kernel", "workbench/case", "workbench/session", "workbench/operations",
+      "workbench/findings", "workbench/window/style", "workbench/window/widgets",
+      "workbench/window/case", "workbench/window/core"}},
     {"workbench/window/features/gallery",
      {"geometry/kernel", "gpu", "workbench/case", "workbench/session", "workbench/suggest",
       "workbench/window/style", "workbench/window/keys", "workbench/window/widgets",
@@ -176,7 +186,7 @@ const std::map<std::string, Names> kDoors = {
       "workbench/window/features/colours", "workbench/window/features/gallery",
       "workbench/window/features/measures", "workbench/window/features/quality",
       "workbench/window/features/review", "workbench/window/features/slices",
-      "workbench/window/features/extraction"}},
+      "workbench/window/features/findings", "workbench/window/features/extraction"}},
     {"workbench/window/fields",
      {"geometry/kernel", "gpu", "workbench/window/style", "workbench/window/widgets",
       "workbench/window/case", "workbench/window/form", "workbench/window/core"}},
@@ -202,6 +212,7 @@ const std::map<std::string, Names> kDoors = {
       "workbench/window/features/handles",
       "workbench/window/features/history",
       "workbench/window/features/colours",
+      "workbench/window/features/findings",
       "workbench/window/features/gallery",
       "workbench/window/features/measures",
       "workbench/window/features/quality",
@@ -400,10 +411,12 @@ bool may_use_vtk(const std::string& file) {
     return room == "geometry/formats" || room == "geometry/image";
 }
 
-/// An operation is registered in operations/table.h, a command is declared in commands.h.
+/// An operation is registered in operations/table.h, a command is declared in commands.h, what
+/// looks for faults in findings/detectors.h.
 bool is_declared_in_a_table(const std::string& source) {
     const fs::path path = source;
     if (path.parent_path() == "workbench/commands") return true;
+    if (path.parent_path() == "workbench/findings") return source.ends_with("_faults.cpp");
     if (path.parent_path() != "workbench/operations") return false;
     const std::regex name("\\b" + path.stem().string() + "(_\\w+)?\\b");
     return std::regex_search(house().at("workbench/operations/table.h").text, name);

@@ -277,6 +277,19 @@ bool summarize_reviews(const ReviewArguments& arguments, const Progress& progres
 /// reviewers look at them.
 void review_project(const ReviewArguments& arguments, const Progress& progress);
 
+struct FindingsArguments {
+    std::string project;
+    std::string variant;    ///< empty: variant_of()
+    std::string accepted;   ///< id of the finding whose operation runs; empty: none
+    std::string dismissed;  ///< id; empty: none
+    std::string reason;     ///< why it is dismissed
+    std::string restored;   ///< id of the finding whose dismissal is taken back; empty: none
+    bool json = false;
+};
+
+/// Lists what looks like an artefact on a project's model, or accepts, dismisses or restores one.
+void show_findings(const FindingsArguments& arguments, const Progress& progress);
+
 struct WindowOptions {
     std::string file;        ///< to open at once; empty: the start screen
     std::string screenshot;  ///< PNG file

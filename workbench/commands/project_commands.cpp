@@ -194,6 +194,33 @@ void add_review(CommandLine& line) {
     add_json(command, options->json);
 }
 
+void add_findings(CommandLine& line) {
+    const auto options = std::make_shared<FindingsArguments>();
+    CLI::App& command =
+        add_command(line, "findings",
+                    "List what looks like an artefact on the model, with its evidence and the "
+                    "operation that would treat it",
+                    [options, &line] { return show_findings(*options, line.progress), 0; });
+    add_project(command, options->project);
+    add_variant(command, options->variant, "Variant whose model is looked at: cfd, rp or a name");
+    const auto add = [&](const char* name, std::string& value, const char* help) {
+        return command.add_option(name, value, help)->type_name("FINDING");
+    };
+    CLI::Option* accept =
+        add("--accept", options->accepted, "Run the operation that treats a finding, as an edit");
+    CLI::Option* dismiss = add("--dismiss", options->dismissed,
+                               "Judge a finding as no artefact: it is no longer listed");
+    CLI::Option* restore =
+        add("--restore", options->restored, "Take back that a finding was dismissed");
+    accept->excludes(dismiss)->excludes(restore);
+    dismiss->excludes(restore);
+    command
+        .add_option("--reason", options->reason,
+                    "Why it is dismissed, in your own words; it stays in the project's record")
+        ->type_name("WORDS");
+    add_json(command, options->json);
+}
+
 void add_compact(CommandLine& line) {
     const auto options = std::make_shared<LogOptions>();
     CLI::App& command =
@@ -263,6 +290,7 @@ void add_project_commands(CommandLine& line) {
     add_replay(line);
     add_audit(line);
     add_review(line);
+    add_findings(line);
     add_compact(line);
     add_export(line);
 }

@@ -15,6 +15,7 @@
 #include "workbench/commands/console.h"
 #include "workbench/operations/table.h"
 #include "workbench/project/project.h"
+#include "workbench/review/finding_items.h"
 #include "workbench/review/page_queue.h"
 #include "workbench/review/review_json.h"
 #include "workbench/review/review_page.h"
@@ -80,8 +81,11 @@ Json write_page(Session& session, const ReviewArguments& arguments, const Progre
 Json queue_of(Session& session, const std::string& variant_asked, const Progress& progress) {
     const std::string variant = variant_meant(variant_asked, *session.snapshot()->history);
     const std::vector<LogEntry> log = session.log(variant);
-    return queue_json(review_queue(
-        log, page_models(session, log, find_operation, kQueueOnly, progress), find_operation));
+    std::vector<QueueItem> queue = review_queue(
+        log, page_models(session, log, find_operation, kQueueOnly, progress), find_operation);
+    const std::vector<QueueItem> findings = finding_items(session, log, progress);
+    queue.insert(queue.end(), findings.begin(), findings.end());
+    return queue_json(queue);
 }
 
 }  // namespace

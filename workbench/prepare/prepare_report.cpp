@@ -17,6 +17,7 @@
 #include "workbench/case/point_json.h"
 #include "workbench/case/purposes.h"
 #include "workbench/case/version.h"
+#include "workbench/findings/find_findings.h"
 #include "workbench/operations/shared/context_weights.h"
 #include "workbench/operations/shared/opening_json.h"
 #include "workbench/operations/table.h"
@@ -25,6 +26,7 @@
 #include "workbench/report/log_json.h"
 #include "workbench/report/report_pictures.h"
 #include "workbench/report/requirements.h"
+#include "workbench/review/finding_items.h"
 #include "workbench/review/review.h"
 #include "workbench/session/source_counterpart.h"
 
@@ -210,6 +212,12 @@ void add_steps(PreparedReport& report, const std::vector<LogEntry>& edits, const
     }
 }
 
+/// What looks wrong on the model and was not dismissed.
+void add_findings(Json& report, const std::vector<Finding>& findings) {
+    report["findings"] = Json::array();
+    for (const Finding& finding : findings) report["findings"].push_back(finding_json(finding));
+}
+
 /// A model that nobody has reviewed has no such section.
 void add_review(Json& report, const Review& review) {
     if (review.files == 0) return;
@@ -262,6 +270,7 @@ PreparedReport prepare_report(Session& session, const PreparedCase& prepared,
     if (find_purpose(prepared.purpose).simulates_flow)
         for (const Diagnostic& warning : add_flow(report, prepared, edits))
             made.warnings.push_back(warning);
+    add_findings(report, open_findings(session, edits, progress.part(0.4, 0.5)));
     progress.report(0.5, "drawing");
     std::optional<PictureSource> compared_with;
     if (source.surface)

@@ -219,6 +219,31 @@ Json ends(const Json& report) {
     return list;
 }
 
+/// "brush-smooth at=1,2,3 radius=2"
+std::string treatment_text(const Json& operation) {
+    if (!operation.is_object()) return "-";
+    std::string text = shown(part_of(operation, "name"));
+    for (const auto& [name, value] : part_of(operation, "arguments").items())
+        text += " " + name + "=" + shown(value);
+    return text;
+}
+
+/// What looks wrong on the model, the most certain first.
+Json findings(const Json& report) {
+    Json list = Json::array();
+    for (const Json& finding : part_of(report, "findings")) {
+        const Json& certainty = part_of(finding, "certainty");
+        list.push_back({{"title", shown(part_of(finding, "title"))},
+                        {"id", shown(part_of(finding, "id"))},
+                        {"text", shown(part_of(finding, "text"))},
+                        {"certainty", certainty.is_number()
+                                          ? formatted(100.0 * certainty.get<double>(), "%.0f %%")
+                                          : shown(certainty)},
+                        {"treatment", treatment_text(part_of(finding, "operation"))}});
+    }
+    return list;
+}
+
 /// The sheet of thesis Table 2.1.
 Json requirements(const Json& report) {
     Json list = Json::array();
@@ -306,9 +331,10 @@ std::string report_html(const Json& report, std::span<const ReportPicture> pictu
                  {"requirements", requirements(report)},
                  {"openings", openings(report)},
                  {"ends", ends(report)},
+                 {"findings", findings(report)},
                  {"sections", sections_of(report, sections)},
                  {"products", texts_of(part_of(report, "products"))}};
-    for (const char* list : {"warnings", "pictures", "requirements", "ends"})
+    for (const char* list : {"warnings", "findings", "pictures", "requirements", "ends"})
         page[std::string("any_") + list] = !page[list].empty();
     return rendered_template(report_templates().at("report.html"), page);
 }

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "workbench/review/finding_items.h"
 #include "workbench/review/page_file.h"
 #include "workbench/review/page_manifest.h"
 #include "workbench/review/review_page_bytes.h"
@@ -23,11 +24,13 @@ ReviewPage review_page(Session& session, const std::string& variant, const Opera
     static_cast<void>(session.scene(variant, progress.part(0.0, kEditsShare)));
     const std::vector<LogEntry> log = session.log(variant);
     const PageModels models =
-        page_models(session, log, find, {.images = images}, progress.part(kEditsShare, 1.0));
+        page_models(session, log, find, {.images = images}, progress.part(kEditsShare, 0.9));
     std::map<std::string, std::string> blobs = models.geometry.blobs();
     blobs.insert(models.slices.begin(), models.slices.end());
-    const nlohmann::ordered_json manifest =
-        page_manifest(session, variant, log, models, images, find);
+    nlohmann::ordered_json manifest = page_manifest(session, variant, log, models, images, find);
+    nlohmann::ordered_json findings =
+        queue_json(finding_items(session, log, progress.part(0.9, 1.0)));
+    for (nlohmann::ordered_json& item : findings) manifest["queue"].push_back(std::move(item));
     return {filled_page(review_page_bytes(), manifest, blobs), manifest["queue"]};
 }
 

@@ -30,6 +30,8 @@ std::string key_of(StoredText which) {
             return "case folder";
         case StoredText::Measures:
             return "measures";
+        case StoredText::Dismissals:
+            return "dismissals";
         case StoredText::Spots:
             break;
     }
@@ -53,15 +55,20 @@ bool has_no_log(std::filesystem::path project) {
 
 }  // namespace
 
-void store_text(const std::filesystem::path& project, StoredText which, const std::string& text) {
+void store_text(const std::filesystem::path& project, StoredText which, const std::string& text,
+                const StoredChange& change) {
     const Database database(project, OpenMode::Write);
     if (text_in(database, which) == text) return;
     const std::string key = key_of(which);
     Transaction transaction(database);
     if (lacks_record(database)) begin_record(database);
     database.prepare("INSERT OR REPLACE INTO meta VALUES(?, ?)").bind(0, key).bind(1, text).step();
-    NewEntry entry{
-        .kind = key, .subject = "project", .author = login_name(), .rows = {}, .gone = {}};
+    NewEntry entry{.kind = key,
+                   .subject = change.subject,
+                   .author = login_name(),
+                   .facts = nlohmann::json::parse(change.facts),
+                   .rows = {},
+                   .gone = {}};
     add_row_digests(database, "meta", "name = '" + key + "'", entry.rows);
     append_entry(database, entry);
     transaction.commit();

@@ -17,12 +17,20 @@ enum class StoredText {
     InputName,     ///< the one that was given in place of the input's own
     Acceptance,    ///< how many reviewers a purpose's products require, by its name
     CaseFolder,    ///< where the files of these recipes are, relative to the project's folder
-    Measures       ///< stored_measures.h
+    Measures,      ///< stored_measures.h
+    Dismissals     ///< findings/dismissals.h
+};
+
+/// What the record says of a text that was replaced.
+struct StoredChange {
+    std::string subject = "project";
+    std::string facts = "{}";  ///< a JSON object
 };
 
 /// Keeps a text in a project file, which a session of this process may have open.
 /// \throw IoError if the project cannot be written
-void store_text(const std::filesystem::path& project, StoredText which, const std::string& text);
+void store_text(const std::filesystem::path& project, StoredText which, const std::string& text,
+                const StoredChange& change = {});
 
 /// A text in a project file; empty: it has none.
 /// \throw IoError, InvalidInput if it cannot be read

@@ -1,6 +1,5 @@
 #include "workbench/operations/shared/handle_warnings.h"
 
-#include "geometry/kernel/handles.h"
 #include "geometry/kernel/measure.h"
 
 namespace vesselbench {
@@ -14,14 +13,14 @@ constexpr int kMostNamed = 5;
 /// contact.
 constexpr double kShortest = 8.0;
 
-Diagnostic warning_of(const SurfaceHandle& handle) {
+}  // namespace
+
+Diagnostic handle_warning(const SurfaceHandle& handle) {
     const bool artefact = handle.length < kShortest * handle.width;
     return {.code = artefact ? "handle-artefact" : "handle",
             .place = handle.centre,
             .figures = {{"width_mm", handle.width}, {"length_mm", handle.length}}};
 }
-
-}  // namespace
 
 std::vector<Diagnostic> handle_warnings(const Surface& surface, const Progress& progress) {
     const int genus = connectivity(*surface.topology).genus.value_or(0);
@@ -29,7 +28,7 @@ std::vector<Diagnostic> handle_warnings(const Surface& surface, const Progress& 
     if (genus > kMostNamed) return {{.code = "many-handles", .figures = {{"handles", genus}}}};
     std::vector<Diagnostic> warnings;
     for (const SurfaceHandle& handle : handles_of(surface, progress.silent()))
-        warnings.push_back(warning_of(handle));
+        warnings.push_back(handle_warning(handle));
     return warnings;
 }
 

@@ -11,7 +11,7 @@
 
 namespace vesselbench {
 
-enum class BottomTab { History, Messages, Measures };
+enum class BottomTab { History, Messages, Measures, Findings };
 
 enum class FormTab { Fields, Live };
 

@@ -45,6 +45,8 @@ enum class KeyCommand {
     Picture,
     NextWorst,
     PreviousWorst,
+    NextFinding,
+    PreviousFinding,
     Gallery,
     Spots,
     SwitchComparison,

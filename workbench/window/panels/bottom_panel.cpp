@@ -7,6 +7,8 @@
 #include <imgui.h>
 
 #include "workbench/window/core/shown.h"
+#include "workbench/window/features/findings/findings_feature.h"
+#include "workbench/window/features/findings/findings_panel.h"
 #include "workbench/window/features/history/history_panel.h"
 #include "workbench/window/features/measures/measure_panel.h"
 #include "workbench/window/panels/message_panel.h"
@@ -55,11 +57,18 @@ std::string measure_label(const MeasureList& measures) {
     return count == 0 ? "Measurements" : "Measurements (" + std::to_string(count) + ")";
 }
 
+std::string finding_label(const FindingsFeature& feature) {
+    const std::size_t count = feature.findings() ? feature.findings()->open.size() : 0;
+    return count == 0 ? "Findings" : "Findings (" + std::to_string(count) + ")";
+}
+
 void draw_tabs(PanelContext& c) {
-    const std::array<Tab, 3> tabs = {
+    const std::array<Tab, 4> tabs = {
         {{"tab.history", icons::kHistory, "History", BottomTab::History},
          {"tab.messages", icons::kMessages, message_label(c.place.document), BottomTab::Messages},
-         {"tab.measures", icons::kRuler, measure_label(c.place.measures()), BottomTab::Measures}}};
+         {"tab.measures", icons::kRuler, measure_label(c.place.measures()), BottomTab::Measures},
+         {"tab.findings", icons::kTarget, finding_label(c.core.get<FindingsFeature>()),
+          BottomTab::Findings}}};
     float wide = 0;
     for (const Tab& tab : tabs) wide += ImGui::CalcTextSize(tab.label.c_str()).x + c.ui.em * 3.2F;
     const bool room = wide < ImGui::GetContentRegionAvail().x;
@@ -81,6 +90,7 @@ void draw_bottom_panel(PanelContext& c, const ScreenRect& rect) {
     if (c.shown.bottom == BottomTab::History) draw_history(c);
     if (c.shown.bottom == BottomTab::Messages) draw_messages(c);
     if (c.shown.bottom == BottomTab::Measures) draw_measure_table(c);
+    if (c.shown.bottom == BottomTab::Findings) draw_findings(c);
     ImGui::EndChild();
     end_frame();
 }

@@ -6,6 +6,7 @@
 #include "workbench/window/features/colours/colours_feature.h"
 #include "workbench/window/features/compare/compare_feature.h"
 #include "workbench/window/features/extraction/extraction_feature.h"
+#include "workbench/window/features/findings/findings_feature.h"
 #include "workbench/window/features/gallery/gallery_feature.h"
 #include "workbench/window/features/handles/handles_feature.h"
 #include "workbench/window/features/history/history_feature.h"
@@ -33,6 +34,7 @@ void add_features(Core& core, const LiveDevice& device) {
     all.add(std::make_unique<MeasuresFeature>(core));
     all.add(std::make_unique<HandlesFeature>(core));
     all.add(std::make_unique<BrushFeature>(core));
+    all.add(std::make_unique<FindingsFeature>(core));
     all.add(std::make_unique<PictureFeature>());
     all.add(std::make_unique<ReviewFeature>(core));
 }

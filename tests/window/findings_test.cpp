@@ -1,0 +1,108 @@
+#include <catch2/catch.hpp>
+
+#include "geometry/formats/surface_file.h"
+#include "tests/support/shapes.h"
+#include "tests/window/window_support.h"
+#include "workbench/window/features/findings/findings_feature.h"
+#include "workbench/window/keys/keys.h"
+
+using namespace vesselbench;
+using namespace vesselbench::test;
+using namespace std::chrono_literals;
+
+namespace {
+
+/// A tube whose wall is pushed out by two bumps.
+std::string bumpy_file() {
+    std::string file = temporary_folder() + "/bumpy.stl";
+    const Surface tube = mapped(fine_tube(2.0, 30.0, 48), [](const Vec3& p) {
+        Vec3 moved = p;
+        for (const Vec3& at : {Vec3(2, 0, 10), Vec3(-2, 0, 20)}) {
+            const double share = (p - at).norm();
+            if (share < 1.0) moved += 0.7 * (1 - share * share) * Vec3(at.x() / 2.0, 0, 0);
+        }
+        return moved;
+    });
+    write_surface(tube, file);
+    return file;
+}
+
+FindingsFeature& findings_of(OffscreenShell& shell) {
+    return shell.app().place().get<FindingsFeature>();
+}
+
+std::size_t count(OffscreenShell& shell) {
+    return findings_of(shell).findings() ? findings_of(shell).findings()->open.size() : 0;
+}
+
+void wait_for_findings(OffscreenShell& shell) {
+    REQUIRE(shell.run_until([&] { return findings_of(shell).findings().has_value(); }, 60s));
+}
+
+}  // namespace
+
+SCENARIO("Findings are toured, treated and dismissed", "[window][findings]") {
+    const auto shell = test_shell();
+    if (!shell) return;
+    open_and_wait(*shell, bumpy_file());
+    CHECK_FALSE(findings_of(*shell).findings());  // nobody has asked
+    const int looks = shell->app().place().looks();
+    shell->press_key(keys::letter('T'));
+    wait_for_findings(*shell);
+    REQUIRE(count(*shell) == 2);
+    CHECK(shell->app().place().looks() == looks + 1);
+    CHECK(findings_of(*shell).at() == 0U);
+    const Finding first = findings_of(*shell).findings()->open[0];
+    CHECK(first.kind == "bump");
+    CHECK((*shell->app().place().looked_at() - first.place).norm() < 1e-9);
+    WHEN("the keys go on") {
+        shell->press_key(keys::letter('T'));
+        CHECK(findings_of(*shell).at() == 1U);
+        shell->press_key(keys::letter('T'));
+        CHECK(findings_of(*shell).at() == 0U);
+    }
+    WHEN("one is to be changed") {
+        REQUIRE(shell->click_item("findings.change.0"));
+        THEN("the form has its arguments") {
+            REQUIRE(shell->app().place().form());
+            CHECK(shell->app().place().form()->operation().name == "brush-smooth");
+            CHECK(shell->app().place().command().find("radius=") != std::string::npos);
+        }
+    }
+    WHEN("one is accepted") {
+        const auto edits = shell->app().place().document.snapshot()->log.size();
+        REQUIRE(shell->click_item("findings.accept.0"));
+        REQUIRE(wait_until_idle(*shell));
+        CHECK(shell->app().place().document.snapshot()->log.size() == edits + 1);
+        THEN("the findings are those of the new model") {
+            wait_for_findings(*shell);
+            for (const Finding& left : findings_of(*shell).findings()->open)
+                CHECK((left.place - first.place).norm() > 2.0);
+        }
+    }
+    WHEN("one is dismissed") {
+        REQUIRE(shell->click_item("findings.dismiss.0"));
+        REQUIRE(shell->has("findings.reason"));
+        CHECK_FALSE(shell->app().ui().items().at("findings.confirm").enabled);
+        REQUIRE(shell->fill_item("findings.reason", "a plaque"));
+        REQUIRE(shell->click_item("findings.confirm"));
+        REQUIRE(shell->run_until([&] { return count(*shell) == 1; }, 30s));
+        THEN("it stays so in the project") {
+            const auto kept = stored_dismissals(shell->app().place().document.project());
+            REQUIRE(kept.size() == 1);
+            CHECK(kept[0].reason == "a plaque");
+            CHECK(is_of(kept[0], first));
+        }
+    }
+}
+
+SCENARIO("Closing a case ends the search for findings", "[window][findings]") {
+    const auto shell = test_shell();
+    if (!shell) return;
+    open_and_wait(*shell, bumpy_file());
+    REQUIRE(shell->click_item("tab.findings"));
+    shell->app().place().close();
+    REQUIRE(shell->settle(60s));
+    CHECK_FALSE(findings_of(*shell).findings());
+    CHECK_FALSE(findings_of(*shell).pending());
+}

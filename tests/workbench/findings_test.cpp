@@ -1,0 +1,380 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "geometry/formats/surface_file.h"
+#include "geometry/image/extract_surface.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/plain_name.h"
+#include "geometry/phantoms/phantom.h"
+#include "tests/support/paths.h"
+#include "tests/support/program.h"
+#include "tests/support/shapes.h"
+#include "workbench/findings/detectors.h"
+#include "workbench/findings/find_findings.h"
+#include "workbench/findings/treatment.h"
+#include "workbench/operations/table.h"
+
+using namespace vesselbench;
+using namespace vesselbench::test;
+using Catch::Matchers::Contains;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+constexpr double kSure = 0.8;
+
+PhantomPart vessel(const char* name, const Vec3& from, const Vec3& to, double radius) {
+    return {.name = name, .shape = VesselShape{.points = {from, to}, .radii = {radius, radius}}};
+}
+
+/// A straight vessel with more parts, as an image shows it.
+PhantomDescription vessel_with(std::vector<PhantomPart> more) {
+    PhantomDescription phantom{.name = "vessel"};
+    phantom.parts = {vessel("vessel", {0, 0, -12}, {1, 2, 12}, 2.0)};
+    for (PhantomPart& part : more) phantom.parts.push_back(std::move(part));
+    phantom.imaging = {
+        .spacing = Vec3::Constant(0.4), .margin = 2.0, .blur = Vec3::Constant(0.2), .noise = 20.0};
+    phantom.surface_edge = 1.0;
+    return phantom;
+}
+
+Scene scene_of(const PhantomDescription& description, Bodies bodies = Bodies::Largest) {
+    const Image image = make_phantom(description).image;
+    const Extraction made = extract_surface(image, {}, {.threshold = 500.0, .bodies = bodies});
+    Scene scene;
+    scene.surface = made.surface;
+    scene.sampling = sampling_of(image);
+    return scene;
+}
+
+Scene scene_of(const Surface& surface) {
+    Scene scene;
+    scene.surface = surface;
+    return scene;
+}
+
+std::vector<Finding> of_kind(const std::vector<Finding>& all, const std::string& kind) {
+    std::vector<Finding> found;
+    std::ranges::copy_if(all, std::back_inserter(found),
+                         [&](const Finding& finding) { return finding.kind == kind; });
+    return found;
+}
+
+/// The surest finding of a kind is where the fault is.
+void check_found(const Scene& scene, const std::string& kind, const Vec3& place, double reach) {
+    const auto found = of_kind(find_findings(scene), kind);
+    CAPTURE(kind);
+    REQUIRE_FALSE(found.empty());
+    CAPTURE(found[0].place.transpose(), found[0].certainty);
+    CHECK(found[0].certainty >= kSure);
+    CHECK((found[0].place - place).norm() < reach);
+}
+
+Finding bump_at(const Vec3& place, double size) {
+    return {.kind = "bump", .place = place, .size = size, .certainty = 0.9, .evidence = {}};
+}
+
+/// A tube whose wall is pushed out by a bump beside its middle.
+Surface tube_with_bump() {
+    return mapped(fine_tube(2.0, 24.0, 48), [](const Vec3& p) {
+        const double share = (p - Vec3(2.0, 0, 12)).norm() / 1.0;
+        const double up = share < 1.0 ? 0.7 * (1 - share * share) : 0.0;
+        return Vec3(p + up * Vec3::UnitX());
+    });
+}
+
+ProgramRun run(const std::vector<std::string>& arguments) {
+    return run_program(program_path(), arguments);
+}
+
+/// A project with that tube.
+std::string bumpy_project() {
+    const std::string folder = temporary_folder();
+    write_surface(tube_with_bump(), folder + "/bumpy.stl");
+    REQUIRE(run({"new", folder + "/p.vbench", folder + "/bumpy.stl", "--units", "mm"}).exit_code ==
+            0);
+    return folder + "/p.vbench";
+}
+
+Json findings_in(const std::string& project) {
+    const ProgramRun listed = run({"findings", project, "--json"});
+    INFO(listed.err);
+    REQUIRE(listed.exit_code == 0);
+    return Json::parse(listed.out);
+}
+
+std::string id_of(const Json& findings, const std::string& kind) {
+    for (const Json& finding : findings["findings"])
+        if (finding["kind"] == kind) return finding["id"];
+    return "";
+}
+
+}  // namespace
+
+SCENARIO("The registry has each kind once, by a plain name", "[workbench][findings]") {
+    std::set<std::string> kinds;
+    for (const Detector& detector : detectors()) {
+        CHECK(is_plain_name(detector.kind));
+        CHECK(kinds.insert(detector.kind).second);
+        CHECK(title_of_kind(detector.kind) == detector.title);
+    }
+    CHECK(title_of_kind("of-another-version") == "of-another-version");
+}
+
+SCENARIO("On a sound vessel nothing is called sure", "[workbench][findings]") {
+    for (const Finding& finding : find_findings(scene_of(vessel_with({})))) {
+        CAPTURE(finding.id());
+        CHECK(finding.certainty < kSure);
+    }
+}
+
+SCENARIO("Faults of the image are found where they are", "[workbench][findings]") {
+    const Vec3 wall(-1.9, 0.9, 0);
+    check_found(scene_of(vessel_with(
+                    {{.name = "bump", .shape = SphereShape{.centre = wall, .radius = 1.1}}})),
+                "bump", wall, 2.0);
+    check_found(scene_of(vessel_with({vessel("stub", {0.5, 1, 0}, {-3.0, 1, 0}, 0.8)})), "stub",
+                {-3.5, 1, 0}, 1.5);
+    check_found(
+        scene_of(vessel_with({{.name = "apart",
+                               .shape = SphereShape{.centre = Vec3(-7, 0, 0), .radius = 1.0}}}),
+                 Bodies::All),
+        "detached", {-7, 0, 0}, 0.5);
+}
+
+SCENARIO("A bridge between vessels is a handle", "[workbench][findings]") {
+    PhantomDescription phantom = vessel_with({});
+    phantom.parts = {vessel("trunk", {0, 0, -12}, {0, 0, 0}, 2.0),
+                     vessel("one", {0, 0, 0}, {7, 0, 12}, 1.5),
+                     vessel("other", {0, 0, 0}, {-7, 0, 12}, 1.5),
+                     vessel("bridge", {4.2, 0, 7.2}, {-4.2, 0, 7.2}, 0.8)};
+    const auto found = of_kind(find_findings(scene_of(phantom)), "handle");
+    REQUIRE(found.size() == 1);
+    CHECK(std::abs(found[0].place.z() - 7.2) < 2.0);
+    CHECK(found[0].treatment() == nullptr);
+}
+
+SCENARIO("Faults of the triangles are found", "[workbench][findings]") {
+    const Surface tube = fine_tube(2.0, 24.0, 36);
+    WHEN("the wall has a hole") {
+        std::vector<Triangle> kept;
+        PatchLabels labels;
+        for (TriangleId t = 0; t < tube.triangle_count(); ++t) {
+            const Triangle& corners = tube.triangles()[t];
+            if ((tube.points()[corners[0]] - Vec3(2.0, 0, 12)).norm() < 0.6) continue;
+            kept.push_back(corners);
+            labels.push_back((*tube.patch_labels)[t]);
+        }
+        check_found(scene_of(make_surface(tube.points(), kept, labels, tube.patches)), "hole",
+                    {2.0, 0, 12}, 0.5);
+    }
+    WHEN("the wall passes through itself") {
+        check_found(
+            scene_of(mapped(tube,
+                            [](const Vec3& p) {
+                                const double share = (p - Vec3(2.0, 0, 12)).squaredNorm() / 1.5;
+                                return Vec3(p - 5.0 * std::max(0.0, 1 - share) * Vec3::UnitX());
+                            })),
+            "self-intersection", {-2.0, 0, 12}, 2.0);
+    }
+    WHEN("an end is cut obliquely") {
+        check_found(scene_of(mapped(tube,
+                                    [](const Vec3& p) {
+                                        const double z = p.z() / 24.0;
+                                        return Vec3(p + 0.6 * p.x() * z * Vec3::UnitZ());
+                                    })),
+                    "oblique-end", {0, 0, 24}, 1.0);
+    }
+    WHEN("none of this is so") {
+        CHECK(find_findings(scene_of(tube)).empty());
+    }
+}
+
+SCENARIO("Walls nearly in contact are found, and walls that are not are none",
+         "[workbench][findings]") {
+    // A hairpin of radius 1 mm, whose legs are `gap` apart.
+    const auto hairpin = [](double gap) {
+        const double leg = 10.0, bend = 1.0 + 0.5 * gap;
+        const double length = 2.0 * leg + bend * std::numbers::pi;
+        return scene_of(mapped(fine_tube(1.0, length, 24), [&](const Vec3& p) {
+            const double beyond = p.z() - leg, angle = beyond / bend;
+            if (beyond < 0.0) return Vec3(bend + p.x(), p.y(), beyond);
+            if (angle > std::numbers::pi)
+                return Vec3(-bend - p.x(), p.y(), std::numbers::pi * bend - beyond);
+            const double out = bend + p.x();
+            return Vec3(out * std::cos(angle), p.y(), out * std::sin(angle));
+        }));
+    };
+    const auto found = of_kind(find_findings(hairpin(0.3)), "contact");
+    REQUIRE_FALSE(found.empty());
+    CHECK(found[0].certainty >= kSure);
+    CHECK(std::abs(found[0].place.x()) < 0.3);
+    CHECK(of_kind(find_findings(hairpin(3.0)), "contact").empty());
+}
+
+SCENARIO("Only the image's voxels make a vessel a thread", "[workbench][findings]") {
+    Scene scene = scene_of(fine_tube(0.3, 24.0, 12));
+    CHECK(of_kind(find_findings(scene), "thread").empty());
+    scene.sampling = Sampling{.spacing = Vec3::Constant(2.0), .confidence = 1.0};
+    CHECK_FALSE(of_kind(find_findings(scene), "thread").empty());
+    scene.sampling->spacing = Vec3::Constant(0.4);
+    CHECK(of_kind(find_findings(scene), "thread").empty());
+}
+
+SCENARIO("Steps of thick slices are found", "[workbench][findings]") {
+    PhantomDescription thick = vessel_with({});
+    thick.parts = {vessel("oblique", {-8, 0, -8}, {8, 2, 8}, 2.5)};
+    thick.imaging.spacing = Vec3(0.4, 0.4, 1.2);
+    const Image mask = make_phantom(thick).mask;
+    Scene scene;
+    scene.surface = extract_surface(mask, {}, {.method = ExtractionMethod::Labels}).surface;
+    scene.sampling = sampling_of(mask);
+    const auto found = of_kind(find_findings(scene), "staircases");
+    REQUIRE(found.size() == 1);
+    CHECK(found[0].certainty >= kSure);
+    REQUIRE(found[0].treatment() != nullptr);
+    CHECK(found[0].treatment()->operation == "smooth");
+}
+
+SCENARIO("Findings do not depend on where a model lies, and on its size", "[workbench][findings]") {
+    const Surface bumpy = tube_with_bump();
+    const auto found = of_kind(find_findings(scene_of(bumpy)), "bump");
+    REQUIRE(found.size() == 1);
+    const auto elsewhere = [](const Vec3& p) {
+        return Vec3(10.0 * (skew_rotation() * p) + Vec3(100, -50, 7));
+    };
+    const auto moved = of_kind(find_findings(scene_of(mapped(bumpy, elsewhere))), "bump");
+    REQUIRE(moved.size() == 1);
+    CHECK((moved[0].place - elsewhere(found[0].place)).norm() < 5.0);
+    CHECK(moved[0].size == Approx(10.0 * found[0].size).epsilon(0.1));
+    CHECK(moved[0].certainty == Approx(found[0].certainty).margin(0.1));
+}
+
+SCENARIO("Every treatment is an operation with arguments it takes", "[workbench][findings]") {
+    Scene scene = scene_of(vessel_with({vessel("stub", {0.5, 1, 0}, {-3.5, 1, 0}, 0.8)}));
+    for (const Finding& finding : find_findings(scene)) {
+        CAPTURE(finding.id());
+        const Remedy* treatment = finding.treatment();
+        if (treatment == nullptr) continue;
+        const Operation& operation = find_operation(treatment->operation);
+        GivenArguments given(operation);
+        for (const auto& [name, value] : treatment->arguments) given.set(name, value);
+        CHECK_NOTHROW(check_complete(given));
+        CHECK(std::ranges::count(operation.allowed, treatment_step(operation, {})) == 1);
+    }
+}
+
+SCENARIO("An id names a kind and a place", "[workbench][findings]") {
+    const std::vector<Finding> findings = {bump_at({1, 2, 3}, 1.0), bump_at({1, 2, 5}, 1.0)};
+    CHECK(findings[0].id() == "bump@1,2,3");
+    CHECK(finding_of_id(findings, "bump@1,2,3") == &findings[0]);
+    CHECK(finding_of_id(findings, "bump@1,2,4.8") == &findings[1]);
+    CHECK(finding_of_id(findings, "bump@1,2,9") == nullptr);
+    CHECK(finding_of_id(findings, "dent@1,2,3") == nullptr);
+    for (const char* wrong : {"", "bump", "@1,2,3", "bump@1,2", "bump@1,2,3,4", "bump@1,2,nan",
+                              "bump@1,2,x", "bump@\x1b[31m"})
+        CHECK_THROWS_AS(finding_of_id(findings, wrong), UsageError);
+}
+
+SCENARIO("Certainty grows from what is as likely as not", "[workbench][findings]") {
+    CHECK(certainty_of(2.0, 2.0, 3.0) == Approx(0.5));
+    CHECK(certainty_of(3.0, 2.0, 3.0) == Approx(0.8));
+    CHECK(certainty_of(1.0, 2.0, 1.0) == Approx(0.8));
+    CHECK(certainty_of(1e9, 2.0, 3.0) == Approx(0.98));
+    CHECK(certainty_of(-1e9, 2.0, 3.0) == Approx(0.02));
+}
+
+SCENARIO("A dismissal hides its finding, and no other place", "[workbench][findings]") {
+    const Dismissal dismissal{.kind = "bump", .place = {1, 2, 3}, .size = 1.0};
+    CHECK(is_of(dismissal, bump_at({1.1, 2, 3}, 1.1)));
+    CHECK_FALSE(is_of(dismissal, bump_at({1, 2, 4}, 1.0)));
+    CHECK_FALSE(is_of(dismissal, bump_at({1, 2, 3}, 2.0)));  // it has grown
+    const JudgedFindings all =
+        judged({bump_at({1, 2, 3}, 1.0), bump_at({1, 2, 5}, 1.0)},
+               {dismissal, {.kind = "bump", .place = {9, 9, 9}, .size = 1.0}});
+    REQUIRE(all.open.size() == 1);
+    CHECK(all.open[0].place.z() == 5.0);
+    REQUIRE(all.dismissed.size() == 2);
+    CHECK(all.dismissed[0].finding);
+    CHECK_FALSE(all.dismissed[1].finding);
+}
+
+SCENARIO("A finding is dismissed with a reason that stays in the project's record",
+         "[workbench][findings]") {
+    const std::string project = bumpy_project();
+    const std::string id = id_of(findings_in(project), "bump");
+    REQUIRE_FALSE(id.empty());
+    const std::string reason = "a \x1b[31mtrue\x1b[0m <script> 'bump' \"here\"\nit stays";
+    REQUIRE(run({"findings", project, "--dismiss", id, "--reason", reason}).exit_code == 0);
+    const Json now = findings_in(project);
+    CHECK(id_of(now, "bump").empty());
+    REQUIRE(now["dismissed"].size() == 1);
+    CHECK(now["dismissed"][0]["reason"] == reason);
+    const ProgramRun listed = run({"findings", project});
+    CHECK(listed.exit_code == 0);
+    CHECK(listed.out.find('\x1b') == std::string::npos);
+    const ProgramRun audit = run({"audit", project, "--json"});
+    CHECK(audit.exit_code == 0);
+    CHECK_THAT(audit.out, Contains("finding " + id));
+    WHEN("the bump is smoothed away") {
+        REQUIRE(run({"apply", project, "brush-smooth", "at=2.7,0,12", "radius=2", "strength=1",
+                     "passes=100"})
+                    .exit_code == 0);
+        THEN("the dismissal is of nothing that is found") {
+            CHECK(findings_in(project)["dismissed"][0]["id"].is_null());
+        }
+    }
+    WHEN("an edit changes the model elsewhere") {
+        REQUIRE(run({"apply", project, "brush-smooth", "at=-2,0,4", "radius=1"}).exit_code == 0);
+        THEN("it stays dismissed") {
+            CHECK(id_of(findings_in(project), "bump").empty());
+        }
+    }
+    WHEN("it is restored") {
+        REQUIRE(run({"findings", project, "--restore", id}).exit_code == 0);
+        CHECK(id_of(findings_in(project), "bump") == id);
+        CHECK(run({"findings", project, "--restore", id}).exit_code == 2);
+    }
+}
+
+SCENARIO("An accepted finding becomes an edit that says why", "[workbench][findings]") {
+    const std::string project = bumpy_project();
+    const std::string id = id_of(findings_in(project), "bump");
+    REQUIRE_FALSE(id.empty());
+    const ProgramRun accepted = run({"findings", project, "--accept", id, "--json"});
+    INFO(accepted.err);
+    REQUIRE(accepted.exit_code == 0);
+    const Json edit = Json::parse(accepted.out);
+    CHECK(edit["operation"] == "brush-smooth");
+    CHECK_THAT(edit["note"].get<std::string>(), Contains("Bump: the wall rises"));
+}
+
+SCENARIO("The findings command refuses what makes no sense", "[workbench][findings]") {
+    const std::string project = bumpy_project();
+    const auto refused = [&](std::vector<std::string> arguments, const std::string& why) {
+        arguments.insert(arguments.begin(), {"findings", project});
+        const ProgramRun result = run(arguments);
+        CHECK(result.exit_code == 2);
+        CHECK(result.out.empty());
+        CHECK_THAT(result.err, Contains(why));
+    };
+    refused({"--dismiss", "bump@1,2,3"}, "--reason");
+    refused({"--reason", "because"}, "--dismiss");
+    refused({"--dismiss", "bump@1,2,3", "--reason", "because"}, "no finding");
+    refused({"--accept", "bump"}, "is no finding");
+    refused({"--accept", "bump@1,2,3", "--dismiss", "bump@1,2,3"}, "excludes");
+    const std::string id = id_of(findings_in(project), "bump");
+    refused({"--dismiss", id, "--reason", " \n"}, "reason");
+    refused({"--dismiss", id, "--reason", std::string(3000, 'x')}, "longer");
+    refused({"--dismiss", id, "--reason", "\xff\xfe"}, "UTF-8");
+    CHECK(findings_in(project)["dismissed"].empty());
+}
+
+SCENARIO("Without a surface there is nothing to find", "[workbench][findings]") {
+    CHECK_THROWS_AS(find_findings(Scene{}), AlgorithmFailure);
+}

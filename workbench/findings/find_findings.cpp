@@ -1,0 +1,99 @@
+#include "workbench/findings/find_findings.h"
+
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "geometry/kernel/errors.h"
+#include "workbench/case/diagnostic_json.h"
+#include "workbench/case/diagnostic_words.h"
+#include "workbench/case/point_json.h"
+#include "workbench/findings/detectors.h"
+
+namespace vesselbench {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A damaged surface is what some detectors refuse, and what others find.
+std::vector<Finding> found_by(const Detector& detector, FindingSubject& subject,
+                              const Progress& progress) {
+    try {
+        return detector.find(subject, progress);
+    } catch (const AlgorithmFailure&) {
+    } catch (const InvalidInput&) {
+    }
+    return {};
+}
+
+/// True if a finding that is there already is the cause of this one.
+bool is_explained(const Finding& finding, const std::vector<Finding>& earlier) {
+    constexpr double kBeside = 1.5;  ///< [sum of the two sizes]
+    return std::ranges::any_of(earlier, [&](const Finding& cause) {
+        return cause.kind != finding.kind && cause.certainty >= finding.certainty &&
+               (cause.place - finding.place).norm() < kBeside * (cause.size + finding.size);
+    });
+}
+
+Json treatment_json(const Finding& finding) {
+    const Remedy* treatment = finding.treatment();
+    if (treatment == nullptr) return nullptr;
+    Json arguments = Json::object();
+    for (const auto& [name, value] : treatment->arguments) arguments[name] = value;
+    return {{"name", treatment->operation}, {"arguments", arguments}};
+}
+
+Json dismissal_json(const Dismissal& dismissal) {
+    return {{"kind", dismissal.kind},     {"place_mm", point_json(dismissal.place)},
+            {"size_mm", dismissal.size},  {"reason", dismissal.reason},
+            {"author", dismissal.author}, {"time", dismissal.time}};
+}
+
+}  // namespace
+
+std::vector<Finding> find_findings(const Scene& scene, const Progress& progress) {
+    static_cast<void>(surface_of(scene));
+    FindingSubject subject(scene);
+    std::vector<Finding> findings;
+    const std::span<const Detector> all = detectors();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const auto share = [&](std::size_t k) {
+            return static_cast<double>(k) / static_cast<double>(all.size());
+        };
+        progress.report(share(i), "looking for artefacts");
+        for (Finding& finding :
+             found_by(all[i], subject, progress.part(share(i), share(i + 1)).silent())) {
+            if (all[i].follows && is_explained(finding, findings)) continue;
+            finding.evidence.place = finding.place;
+            findings.push_back(std::move(finding));
+        }
+    }
+    std::ranges::stable_sort(findings, std::greater{}, &Finding::certainty);
+    return findings;
+}
+
+Json finding_json(const Finding& finding) {
+    return {{"id", finding.id()},
+            {"kind", finding.kind},
+            {"title", title_of_kind(finding.kind)},
+            {"certainty", finding.certainty},
+            {"place_mm", point_json(finding.place)},
+            {"size_mm", finding.size},
+            {"text", worded(finding.evidence)},
+            {"evidence", diagnostic_json(finding.evidence)},
+            {"operation", treatment_json(finding)}};
+}
+
+Json findings_json(const JudgedFindings& findings) {
+    Json json = {{"findings", Json::array()}, {"dismissed", Json::array()}};
+    for (const Finding& finding : findings.open) json["findings"].push_back(finding_json(finding));
+    for (const DismissedFinding& dismissed : findings.dismissed) {
+        json["dismissed"].push_back(dismissal_json(dismissed.dismissal));
+        json["dismissed"].back()["id"] =
+            dismissed.finding ? Json(dismissed.finding->id()) : Json(nullptr);
+    }
+    return json;
+}
+
+}  // namespace vesselbench

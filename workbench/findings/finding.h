@@ -1,0 +1,42 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "geometry/kernel/diagnostic.h"
+#include "geometry/kernel/vec3.h"
+
+namespace vesselbench {
+
+/// Something of a model that may be an artefact of its image or its segmentation. Whether it is
+/// one, or a pathology, an expert decides.
+struct Finding {
+    std::string kind;           ///< name of its detector
+    Vec3 place = Vec3::Zero();  ///< where it is worst [mm]
+    double size = 0.0;          ///< radius of the sphere around it that holds it, about [mm]
+    /// Probability that the named irregularity is there, and is none of a sound vessel's [-]: as
+    /// docs/findings.md calibrates it.
+    double certainty = 0.0;
+    /// What was measured, in words and figures; its first remedy, if it has one, is the operation
+    /// that treats it, with arguments.
+    Diagnostic evidence;
+
+    /// "bump@12.3,4.5,6.7": kind and place, which edits elsewhere leave as they are.
+    [[nodiscard]] std::string id() const;
+
+    /// Null: no operation treats it.
+    [[nodiscard]] const Remedy* treatment() const;
+};
+
+/// The finding that an id means: of its kind, and no farther from its place than half the finding's
+/// size; the nearest of several. Null: none of them.
+/// \throw UsageError if it is no id
+[[nodiscard]] const Finding* finding_of_id(std::span<const Finding> findings,
+                                           const std::string& id);
+
+/// A logistic curve of what was measured: 0.5 at `even`, 0.8 at `sure`, never nearer to 0 or 1 than
+/// 0.02. `sure` may be the smaller one.
+[[nodiscard]] double certainty_of(double measured, double even, double sure);
+
+}  // namespace vesselbench

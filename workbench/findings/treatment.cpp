@@ -1,0 +1,40 @@
+#include "workbench/findings/treatment.h"
+
+#include <algorithm>
+
+#include "geometry/kernel/diagnosed_error.h"
+#include "geometry/kernel/errors.h"
+#include "workbench/case/argument_texts.h"
+#include "workbench/case/diagnostic_words.h"
+#include "workbench/findings/detectors.h"
+#include "workbench/operations/table.h"
+
+namespace vesselbench {
+
+Step treatment_step(const Operation& operation, const std::vector<LogEntry>& log) {
+    const Step last = log.empty() ? Step::Source : log.back().edit.place.step;
+    if (operation.usual_step >= last) return operation.usual_step;
+    std::vector<Step> allowed = operation.allowed;
+    std::ranges::sort(allowed);
+    const auto behind = std::ranges::lower_bound(allowed, last);
+    return behind != allowed.end() ? *behind : allowed.back();
+}
+
+LogEntry accept(Session& session, const Finding& finding, const std::string& variant,
+                const Progress& progress) {
+    const Remedy* treatment = finding.treatment();
+    if (treatment == nullptr)
+        throw DiagnosedFailure({.code = "finding-without-treatment",
+                                .place = finding.place,
+                                .words = {{"finding", finding.id()}}});
+    const Operation& operation = find_operation(treatment->operation);
+    std::vector<std::string> texts;
+    for (const auto& [name, value] : treatment->arguments) texts.push_back(name + "=" + value);
+    return session.apply(arguments_from_texts(operation, texts),
+                         {.step = treatment_step(operation, session.log(variant)),
+                          .variant = variant,
+                          .note = title_of_kind(finding.kind) + ": " + worded(finding.evidence)},
+                         progress);
+}
+
+}  // namespace vesselbench

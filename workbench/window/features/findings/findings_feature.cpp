@@ -1,0 +1,154 @@
+#include "workbench/window/features/findings/findings_feature.h"
+
+#include <utility>
+
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/wording.h"
+#include "workbench/case/checked_arguments.h"
+#include "workbench/case/diagnostic_words.h"
+#include "workbench/findings/detectors.h"
+#include "workbench/findings/find_findings.h"
+#include "workbench/findings/treatment.h"
+#include "workbench/operations/table.h"
+#include "workbench/window/core/panel_context.h"
+#include "workbench/window/core/shown.h"
+
+namespace vesselbench {
+
+void FindingsFeature::forget() {
+    search_.forget();
+    storing_.forget();
+    of_.reset();
+    findings_.reset();
+    at_.reset();
+    asked_.reset();
+    reason.clear();
+    tour_ = 0;
+}
+
+void FindingsFeature::want() {
+    const Scene* scene = core_.document.newest();
+    if (scene == nullptr || !scene->surface || scene->surface->positions == of_) return;
+    findings_.reset();
+    at_.reset();
+    asked_.reset();
+    of_ = scene->surface->positions;
+    search_.start(
+        [scene = *scene, project = core_.document.project()](const Progress& progress) -> Found {
+            return {find_findings(scene, progress), stored_dismissals(project)};
+        });
+}
+
+void FindingsFeature::judge() {
+    findings_ = judged(found_.findings, found_.dismissals);
+    asked_.reset();
+    reason.clear();
+    if (at_ && *at_ >= findings_->open.size()) at_.reset();
+}
+
+bool FindingsFeature::update() {
+    bool changed = false;
+    if (search_.poll()) {
+        changed = true;
+        if (auto found = search_.take()) {
+            found_ = std::move(*found);
+            judge();
+            if (tour_ != 0) go(std::exchange(tour_, 0));
+        }
+    }
+    if (storing_.poll()) {
+        changed = true;
+        if (auto dismissals = storing_.take()) {
+            found_.dismissals = std::move(*dismissals);
+            judge();
+        } else if (!storing_.problem().empty()) {
+            core_.document.tell(make_message(MessageKind::Error, storing_.problem()));
+        }
+    }
+    const Scene* scene = core_.document.newest();
+    if (findings_ && (scene == nullptr || !scene->surface || scene->surface->positions != of_)) {
+        findings_.reset();
+        changed = true;
+    }
+    return changed;
+}
+
+const Finding* FindingsFeature::finding(std::size_t index) const {
+    return findings_ && index < findings_->open.size() ? &findings_->open[index] : nullptr;
+}
+
+void FindingsFeature::look_at(std::size_t index) {
+    const Finding* found = finding(index);
+    if (found == nullptr) return;
+    at_ = index;
+    core_.look_at(found->place);
+}
+
+void FindingsFeature::go(int steps) {
+    if (!findings_) {
+        tour_ = steps;
+        return want();
+    }
+    const auto count = static_cast<int>(findings_->open.size());
+    if (count == 0)
+        return core_.document.tell(
+            make_message(MessageKind::Remark, "Nothing on the model looks wrong"));
+    const int from = at_ ? static_cast<int>(*at_) : steps > 0 ? -1 : 0;
+    const auto next = static_cast<std::size_t>(((from + steps) % count + count) % count);
+    look_at(next);
+    const Finding& found = findings_->open[next];
+    core_.document.tell(make_message(
+        MessageKind::Remark, title_of_kind(found.kind) + ", " + std::to_string(next + 1) + " of " +
+                                 std::to_string(count) + ": " +
+                                 worded(found.evidence, {.window = true})));
+}
+
+Step FindingsFeature::step_for(const std::string& operation) const {
+    return treatment_step(find_operation(operation), core_.document.snapshot()->log);
+}
+
+void FindingsFeature::accept(std::size_t index) {
+    const Finding* found = finding(index);
+    if (found == nullptr || found->treatment() == nullptr) return;
+    const Operation& operation = find_operation(found->treatment()->operation);
+    GivenArguments given(operation);
+    for (const auto& [name, value] : found->treatment()->arguments) given.set(name, value);
+    core_.leave_form();
+    core_.document.apply(operation.name, given, step_for(operation.name));
+}
+
+void FindingsFeature::change(std::size_t index) {
+    const Finding* found = finding(index);
+    if (found == nullptr || found->treatment() == nullptr) return;
+    const Remedy treatment = *found->treatment();
+    core_.choose(treatment.operation, step_for(treatment.operation));
+    for (const auto& [name, value] : treatment.arguments) core_.set_field(name, value);
+    look_at(index);
+}
+
+void FindingsFeature::ask_reason(std::size_t index) {
+    asked_ = asked_ == index ? std::nullopt : std::optional(index);
+    reason.clear();
+}
+
+void FindingsFeature::dismiss_asked() {
+    const Finding* found = asked_ ? finding(*asked_) : nullptr;
+    if (found == nullptr || reason.find_first_not_of(" \t\n") == std::string::npos) return;
+    storing_.start(
+        [project = core_.document.project(), dismissed = *found, words = reason](const Progress&) {
+            dismiss(project, dismissed, words);
+            return stored_dismissals(project);
+        });
+}
+
+void FindingsFeature::keys(PanelContext& context) {
+    if (!core_.document.is_open()) return;
+    const auto walk = [&](int steps) {
+        context.shown.bottom = BottomTab::Findings;
+        go(steps);
+    };
+    if (context.shown.keys.has(KeyCommand::NextFinding)) walk(1);
+    if (context.shown.keys.has(KeyCommand::PreviousFinding)) walk(-1);
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "workbench/findings/dismissals.h"
+#include "workbench/session/task.h"
+#include "workbench/window/core/core.h"
+
+namespace vesselbench {
+
+/// What looks wrong on the newest model: looked for in the background when it is wanted, shown one
+/// after the other, and treated or dismissed as the user says.
+class FindingsFeature : public Feature {
+public:
+    explicit FindingsFeature(Core& core)
+        : core_(core), search_(core.wake()), storing_(core.wake()) {}
+
+    /// The panel is seen, or a tour was asked for: begins the search unless the findings are known.
+    void want();
+
+    /// Those of the newest model that are not dismissed; none: they are not known.
+    [[nodiscard]] const std::optional<JudgedFindings>& findings() const { return findings_; }
+
+    [[nodiscard]] bool is_searching() const { return search_.pending(); }
+
+    /// Why there are none; empty: no problem.
+    [[nodiscard]] const std::string& problem() const { return search_.problem(); }
+
+    /// The one that is looked at; none: none of them.
+    [[nodiscard]] const std::optional<std::size_t>& at() const { return at_; }
+
+    /// Looks at a finding.
+    void look_at(std::size_t finding);
+
+    /// Looks at the next finding, round and round; back with -1.
+    void go(int steps);
+
+    /// Runs the operation that treats it. Ignored without one.
+    void accept(std::size_t finding);
+
+    /// Opens the form of that operation, with its arguments.
+    void change(std::size_t finding);
+
+    // --- dismissing
+
+    /// Asks for the reason; the same one again: asks no longer.
+    void ask_reason(std::size_t finding);
+
+    /// The finding whose reason is being written; none: nobody is asked.
+    [[nodiscard]] const std::optional<std::size_t>& asked() const { return asked_; }
+
+    std::string reason;  ///< as far as it is written
+
+    /// Dismisses the finding that was asked about. Ignored while the reason is blank.
+    void dismiss_asked();
+
+    [[nodiscard]] bool update() override;
+
+    [[nodiscard]] bool pending() const override { return search_.pending() || storing_.pending(); }
+
+    void keys(PanelContext& context) override;
+
+    void case_opened() override { forget(); }
+
+    void case_closed() override { forget(); }
+
+private:
+    struct Found {
+        std::vector<Finding> findings;
+        std::vector<Dismissal> dismissals;
+    };
+
+    void forget();
+    void judge();
+    [[nodiscard]] const Finding* finding(std::size_t index) const;
+    [[nodiscard]] Step step_for(const std::string& operation) const;
+
+    Core& core_;
+    Task<Found> search_;
+    Task<std::vector<Dismissal>> storing_;
+    std::shared_ptr<const Positions> of_;  ///< the surface that was searched last
+    Found found_;
+    std::optional<JudgedFindings> findings_;
+    std::optional<std::size_t> at_, asked_;
+    int tour_ = 0;  ///< steps to be made when the findings are known
+};
+
+}  // namespace vesselbench
