@@ -98,6 +98,9 @@ constexpr CatalogueText kTexts[] = {
     {"no-narrowing-there",
      "the vessel is not narrower at {place} than beside it[: the nearest narrowing is that of "
      "{fix}]; give from and to to widen any stretch"},
+    {"narrowing-off-vessel",
+     "the place {place} is {distance_mm} mm away from the nearest vessel's axis: give one on its "
+     "wall or inside"},
     {"narrowing-at-branch-end",
      "the place {place} is at a furcation or at the end of a vessel: there is nothing to compare "
      "its radius with; brush-inflate widens by hand"},
@@ -109,6 +112,10 @@ constexpr CatalogueText kTexts[] = {
     {"narrowing-not-a-tube",
      "the wall around the narrowing at {place} is no tube: another vessel or a sac is joined to it "
      "there"},
+    {"narrowing-nearly-closed",
+     "the vessel is nearly closed at {place}: of a radius of {found_mm} mm there is no section "
+     "that "
+     "could be widened to {expected_mm} mm; give a smaller {fix}, or rebuild the vessel"},
     {"narrowing-without-room",
      "the vessel cannot be widened: another wall is {gap_mm} mm away at {place}; a smaller radius "
      "or strength leaves room"},

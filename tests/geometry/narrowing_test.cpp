@@ -1,5 +1,6 @@
 #include "geometry/vessel/narrowing/narrowing.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -162,6 +163,17 @@ SCENARIO("Strength and radius say how wide it becomes", "[geometry][narrowing]")
     CHECK_THROWS_AS(corrected(tube, {.blend = 0.0}), InvalidInput);
 }
 
+SCENARIO("A thread is not widened, and no thorn grows", "[geometry][narrowing]") {
+    CHECK(code_of([&] { (void)corrected(narrow_tube(0.85)); }) == "narrowing-nearly-closed");
+    CHECK_NOTHROW(corrected(narrow_tube(0.85), {.radius = 1.0}));
+    Positions points = narrow_tube(0.5).points();
+    const auto nearest = std::ranges::min_element(
+        points, {}, [](const Vec3& p) { return (p - Vec3(1, 0, kMiddle)).norm(); });
+    *nearest += Vec3(1.6, 0, 0);
+    const Surface spiked = narrow_tube(0.5).with_positions(points);
+    CHECK(code_of([&] { (void)corrected(spiked); }) == "narrowing-not-a-tube");
+}
+
 SCENARIO("A stretch that is given is widened whatever its depth", "[geometry][narrowing]") {
     const Surface tube = narrow_tube(0.1);
     CHECK(code_of([&] { (void)narrowing_at(tube, {.at = Vec3(0, 0, kMiddle)}); }) ==
@@ -191,6 +203,8 @@ SCENARIO("Nothing is widened into another wall, or at an end", "[geometry][narro
     CHECK_NOTHROW(corrected(beside(2.0)));
     CHECK(code_of([&] { (void)narrowing_at(tube, {.at = Vec3(0, 0, 0.2)}); }) ==
           "narrowing-at-branch-end");
+    CHECK(code_of([&] { (void)narrowing_at(tube, {.at = Vec3(9, 0, kMiddle)}); }) ==
+          "narrowing-off-vessel");
     CHECK(code_of([&] {
               (void)narrowing_at(
                   tube, {.at = Vec3(0, 0, 20), .from = Vec3(0, 0, 20), .to = Vec3(0, 0, 20)});

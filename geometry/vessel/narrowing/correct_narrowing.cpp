@@ -19,10 +19,12 @@ namespace {
 
 constexpr double kLeastBlend = 0.25;  ///< a shorter one leaves a crease [expected radii]
 constexpr double kFarthest = 3.0;  ///< a wall farther from the axis is another's [expected radii]
-constexpr double kAxisSpacing = 0.25;  ///< of the axis' points [expected radii]
-constexpr int kAxisPasses = 10;        ///< smooth over about half a radius
-constexpr int kSectionSteps = 10;      ///< until a section is found
-constexpr double kAxisBeyond = 2.0;    ///< of the axis beyond what moves [expected radii]
+constexpr double kFarthestAfter = 2.0;  ///< a section this far from round is a thorn [wanted radii]
+constexpr double kMostFactor = 4.0;     ///< what is scaled by more is no section, but noise
+constexpr double kAxisSpacing = 0.25;   ///< of the axis' points [expected radii]
+constexpr int kAxisPasses = 10;         ///< smooth over about half a radius
+constexpr int kSectionSteps = 10;       ///< until a section is found
+constexpr double kAxisBeyond = 2.0;     ///< of the axis beyond what moves [expected radii]
 constexpr double kLeastGap = 0.25;  ///< to the next wall afterwards, if it was wider [radii moved]
 
 Diagnostic refusal(const char* code, const Narrowing& narrowing) {
@@ -60,6 +62,12 @@ public:
     [[nodiscard]] double first() const { return first_; }
 
     [[nodiscard]] double last() const { return last_; }
+
+    /// Of the wall after the widening at full strength, outside the blends [mm].
+    [[nodiscard]] double wanted_radius(double s) const {
+        const double within = std::clamp(s, from_, to_);
+        return std::max(target_ * course_.expected_at(within), course_.found_at(within));
+    }
 
     /// 1 outside (first, last).
     [[nodiscard]] double factor(double s) const {
@@ -220,6 +228,15 @@ void require_room(const Surface& surface, const Positions& moved,
         }
 }
 
+/// A thread has no section that could be scaled.
+Diagnostic nearly_closed(const Narrowing& narrowing) {
+    Diagnostic closed = refusal("narrowing-nearly-closed", narrowing);
+    closed.figures = {{"found_mm", narrowing.found_radius},
+                      {"expected_mm", narrowing.expected_radius}};
+    closed.remedies = {{.arguments = {{"radius", ""}}}};
+    return closed;
+}
+
 void check(const Narrowing& narrowing, const NarrowingCorrection& parameters) {
     require_range("strength", parameters.strength, 0.0, 1.0);
     require_positive("blend", parameters.blend);
@@ -246,6 +263,8 @@ CorrectedNarrowing correct_narrowing(const Surface& surface, const CenterlineGra
     Widening widening(std::move(course), narrowing, parameters);
     if (!widening.limit(low, high))
         throw DiagnosedFailure(refusal("narrowing-without-vessel", narrowing));
+    if (widening.factor(narrowing.deepest) > kMostFactor)
+        throw DiagnosedFailure(nearly_closed(narrowing));
     const Axis axis(graph.branches[narrowing.branch], widening.first(), widening.last(),
                     narrowing.expected_radius);
     const auto wall = wall_vertices(surface);
@@ -257,9 +276,11 @@ CorrectedNarrowing correct_narrowing(const Surface& surface, const CenterlineGra
     CorrectedNarrowing result{.from = widening.first(), .to = widening.last()};
     Positions moved = surface.points();
     for (const StretchVertex& v : vertices) {
-        if (v.distance > kFarthest * narrowing.expected_radius)
-            throw DiagnosedFailure(refusal("narrowing-not-a-tube", narrowing));
         const double factor = widening.factor(v.along);
+        const bool thorn =
+            factor > 1.1 && factor * v.distance > kFarthestAfter * widening.wanted_radius(v.along);
+        if (thorn || v.distance > kFarthest * narrowing.expected_radius)
+            throw DiagnosedFailure(refusal("narrowing-not-a-tube", narrowing));
         if (factor == 1.0) continue;
         const Vec3 centre = axis.at(v.along);
         moved[v.vertex] = centre + factor * (moved[v.vertex] - centre);

@@ -35,7 +35,8 @@ struct CorrectedNarrowing {
 /// \throw InvalidInput if a parameter is out of range, or the radius is not larger than the one
 ///        found; Cancelled
 /// \throw AlgorithmFailure, with its place, if there is no free vessel around the stretch, its wall
-///        is no tube there, or the wider vessel would touch another wall
+///        is no tube there, or so narrow that it would become more than 4 times as wide, or the
+///        wider vessel would touch another wall
 [[nodiscard]] CorrectedNarrowing correct_narrowing(const Surface& surface,
                                                    const CenterlineGraph& graph,
                                                    const std::vector<WallRing>& rings,

@@ -12,6 +12,7 @@ namespace vesselbench {
 
 namespace {
 
+constexpr double kFar = 3.0;   ///< from the axis: a point that means no place of the vessel [radii]
 constexpr double kNear = 1.0;  ///< a point so far beyond a narrowing's ends still means it [radii]
 
 Diagnostic refusal(const char* code, const Vec3& place) {
@@ -49,6 +50,11 @@ NamedNarrowing narrowing_at(const Surface& surface, const NarrowingQuestion& que
     if (!nearest) throw DiagnosedFailure(refusal("no-narrowing-there", question.at));
     const std::size_t b = nearest->place.branch;
     const CenterlineBranch& branch = named.graph->branches[b];
+    if (nearest->distance > kFar * radius_at(branch, nearest->place.abscissa)) {
+        Diagnostic off = refusal("narrowing-off-vessel", question.at);
+        off.figures = {{"distance_mm", nearest->distance}};
+        throw DiagnosedFailure(off);
+    }
     named.rings = wall_rings(surface, *named.graph, b, progress.part(0.8, 0.85));
     const double s = nearest->place.abscissa;
     if (named.rings.empty() || s < named.rings.front().along || s > named.rings.back().along)
