@@ -151,7 +151,8 @@ constexpr CatalogueText kTexts[] = {
      "the tool at {place} does not cut the vessel's wall: it lies beside it, or inside the lumen; "
      "give another {fix}"},
     {"stamp-swallows",
-     "the tool at {place} contains the wall around it[, and would change {volume_percent:%.0f} % of "
+     "the tool at {place} contains the wall around it[, and would change {volume_percent:%.0f} % "
+     "of "
      "the vessel's volume]: make it smaller, or give another {fix}"},
     {"stamp-cuts-opening",
      "the tool at {place} cuts the cap of {opening}: give another {fix}, or make the tool smaller"},
@@ -162,7 +163,8 @@ constexpr CatalogueText kTexts[] = {
      "the tool at {place} meets the wall in a way that cannot be resolved: it only touches it, or "
      "the wall crosses itself there; give another {fix}"},
     {"stamp-crosses",
-     "the stamped wall would pass through another wall near {place}: use a smaller {fix}, or {fix2} "
+     "the stamped wall would pass through another wall near {place}: use a smaller {fix}, or "
+     "{fix2} "
      "first if the surface crosses itself"},
     {"brush-crosses-walls",
      "{vertices#vertex|vertices} moved less than the brush would have moved them, first near "
@@ -528,6 +530,10 @@ constexpr CatalogueText kTexts[] = {
     {"found-thread",
      "the lumen is {width_mm} mm wide, less than half a voxel ({limit_mm} mm): the image hardly "
      "shows it"},
+    {"found-narrowing",
+     "the vessel is narrower than beside it: over {length_mm} mm, its radius is down to {found_mm} "
+     "mm "
+     "where {expected_mm} mm is expected[; {image}]"},
     {"found-staircases",
      "{share_percent:%.0f} % of the wall's vertices lie on steps across the image's slices: it "
      "bends there by more than {tau_theta:%.2g}, at most by {sharpest:%.2g}, where 1 is a right "

@@ -133,6 +133,19 @@ SCENARIO("On a sound vessel nothing is called sure", "[workbench][findings]") {
     }
 }
 
+SCENARIO("A narrowing is found, with the operation that widens it", "[workbench][findings]") {
+    const Scene scene = scene_of(mapped(closed_tube(2.0, 40.0, 32, 160), [](const Vec3& p) {
+        const double x = std::min(1.0, std::abs(p.z() - 20.0) / 5.0);
+        const double width = 1.0 - 0.2 * (1.0 + std::cos(std::numbers::pi * x));
+        return Vec3(width * p.x(), width * p.y(), p.z());
+    }));
+    check_found(scene, "narrowing", Vec3(0, 0, 20), 2.0);
+    const Finding found = of_kind(find_findings(scene), "narrowing")[0];
+    REQUIRE(found.treatment() != nullptr);
+    CHECK(found.treatment()->operation == "correct-narrowing");
+    CHECK(of_kind(find_findings(scene_of(closed_tube(2.0, 40.0, 32, 160))), "narrowing").empty());
+}
+
 SCENARIO("Faults of the image are found where they are", "[workbench][findings]") {
     const Vec3 wall(-1.9, 0.9, 0);
     check_found(scene_of(vessel_with(

@@ -70,6 +70,7 @@ struct Detector {
     ROW(threads,            "thread",            "Thread",            false) \
     ROW(oblique_ends,       "oblique-end",       "Oblique end",       false) \
     ROW(frayed_ends,        "frayed-end",        "Frayed end",        false) \
+    ROW(narrow_vessels,     "narrowing",         "Narrowing",         true) \
     ROW(stubs,              "stub",              "Stub",              true) \
     ROW(bumps,              "bump",              "Bump",              true) \
     ROW(dents,              "dent",              "Dent",              true) \

@@ -5,11 +5,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/image/threshold.h"
 #include "geometry/kernel/diagnosed_error.h"
 #include "geometry/vessel/narrowing/image_evidence.h"
 #include "geometry/vessel/narrowing/named_narrowing.h"
 #include "workbench/case/point_json.h"
+#include "workbench/operations/shared/narrowing_evidence.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {
@@ -37,11 +37,6 @@ Arguments decided(const Scene& scene, const CheckedArguments& arguments, const P
     Arguments found = arguments;
     set_decisions(found, narrowing_at(surface_of(scene), question_of(scene, arguments), progress));
     return found;
-}
-
-std::optional<ImageEvidence> evidence_of(const Scene& scene, const NamedNarrowing& named) {
-    if (!scene.image || judge(*scene.image).kind != ImageKind::Intensity) return std::nullopt;
-    return image_evidence(*scene.image, named.rings, named.narrowing);
 }
 
 Json evidence_json(const std::optional<ImageEvidence>& evidence) {
@@ -82,7 +77,7 @@ Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) 
                            .radius = arguments.optional_real("radius"),
                            .blend = arguments.real("blend")},
                           progress.part(0.7, 1.0));
-    const auto evidence = evidence_of(scene, named);
+    const auto evidence = narrowing_evidence(scene, named.rings, named.narrowing);
     warn(evidence, named.narrowing, outcome);
     const Narrowing& narrowing = named.narrowing;
     outcome.report = std::make_shared<Json>(Json{{"place_mm", point_json(narrowing.place)},
