@@ -7,8 +7,8 @@ A seed makes a furcation with voxels of 0.4 mm, noise and blur, and plants one f
 bump, a dent, a stub, a bridge between two vessels, two walls nearly in contact, a piece apart, threads in place of an end,
 a hole, a wall that passes through itself, an oblique end. `vesselbench findings` then lists what it finds. A call is right
 if it names the fault planted there (of a bump, that a stub is there is right as well, and so for a bridge and a contact).
-Seeds 1-100 are to build with; of 101-200 the first 60 are reported, and surfaces of the forest's second half. Of the forest's surfaces, a call is right if truth.json has such a
-thing there.
+Seeds 1-100 are to build with; of 101-200 the first 60 are reported, and surfaces of the forest's second half. Of the
+forest's surfaces, a call is right if truth.json has such a thing there.
 """
 import json
 import math
@@ -330,7 +330,8 @@ def measured(seeds, forest, folder):
         right = [(f["certainty"], is_right(f, kind, place, size), f["kind"]) for f in found]
         calls += right
         planted.append((kind, any(c >= SURE and r for c, r, _ in right)))
-        print(seed, kind, planted[-1][1], [(f"{f['kind']} {f['certainty']:.2f}", r[1]) for f, r in zip(found, right)][:8], flush=True)
+        calls_here = [(f"{f['kind']} {f['certainty']:.2f}", r[1]) for f, r in zip(found, right)]
+        print(seed, kind, planted[-1][1], calls_here[:8], flush=True)
     trees = []
     for seed in forest:
         found = forest_calls(seed, folder)
@@ -351,11 +352,12 @@ def lines_of(planted, calls, trees, failures):
     faults = [sure for kind, sure in planted if kind != "none"]
     sure = [call for call in calls + trees if call[0] >= SURE]
     goals = common.table(["goal", "measured"],
-                         [["of findings called at least 80 % sure, at least 80 % right", share(sum(c[1] for c in sure), len(sure))],
+                         [["of findings called at least 80 % sure, at least 80 % right",
+                           share(sum(c[1] for c in sure), len(sure))],
                           ["at least half of the planted faults called at least 80 % sure", share(sum(faults), len(faults))]])
-    lines = ["## Findings", "", "Furcations with voxels of 0.4 mm, blur of half a voxel and noise of 3 % of the contrast, each with one "
-             "planted fault or none,", "and surfaces of the forest. A call is right if it names what was planted, or what the tree has, at "
-             "that place.", "", *goals.splitlines(), "", *by_kind(planted, calls).splitlines(), "", "Phantoms:", "",
+    lines = ["## Findings", "", "Furcations with voxels of 0.4 mm, blur of half a voxel and noise of 3 % of the contrast, each with",
+             "one planted fault or none, and surfaces of the forest. A call is right if it names what was planted, or what the tree has,",
+             "at that place.", "", *goals.splitlines(), "", *by_kind(planted, calls).splitlines(), "", "Phantoms:", "",
              *calibration(calls).splitlines(), "", "Forest:", "", *calibration(trees).splitlines()]
     return lines + (["", f"{len(failures)} could not be made: " + "; ".join(failures)] if failures else [])
 

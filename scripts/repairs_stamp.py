@@ -1,4 +1,4 @@
-#!/usr/bin/python3
+#!/usr/bin/env python3
 """Measures stamps: random tools on random vessels, and their times.
 
   scripts/repairs_stamp.py [--quick] [--build]
