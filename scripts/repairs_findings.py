@@ -355,9 +355,10 @@ def lines_of(planted, calls, trees, failures):
                          [["of findings called at least 80 % sure, at least 80 % right",
                            share(sum(c[1] for c in sure), len(sure))],
                           ["at least half of the planted faults called at least 80 % sure", share(sum(faults), len(faults))]])
-    lines = ["## Findings", "", "Furcations with voxels of 0.4 mm, blur of half a voxel and noise of 3 % of the contrast, each with",
-             "one planted fault or none, and surfaces of the forest. A call is right if it names what was planted, or what the tree has,",
-             "at that place.", "", *goals.splitlines(), "", *by_kind(planted, calls).splitlines(), "", "Phantoms:", "",
+    lines = ["## Findings", "",
+             "Furcations with voxels of 0.4 mm, blur of half a voxel and noise of 3 % of the contrast, each with one planted",
+             "fault or none, and surfaces of the forest. A call is right if it names what was planted, or what the tree has, at",
+             "that place.", "", *goals.splitlines(), "", *by_kind(planted, calls).splitlines(), "", "Phantoms:", "",
              *calibration(calls).splitlines(), "", "Forest:", "", *calibration(trees).splitlines()]
     return lines + (["", f"{len(failures)} could not be made: " + "; ".join(failures)] if failures else [])
 
