@@ -62,7 +62,7 @@ def verdict(place):
 
 
 def row(what, goal, value, met):
-    return [what, goal, value, "met" if met else "not met"]
+    return [what, goal, value, "" if goal == "-" else "met" if met else "not met"]
 
 
 def found_rows(lines, rows):
