@@ -62,7 +62,7 @@ def verdict(place):
 
 
 def row(what, goal, value, met):
-    return [what, goal, value, "met" if met else "not met"]
+    return [what, goal, value, "" if goal == "-" else "met" if met else "not met"]
 
 
 def found_rows(lines, rows):
@@ -122,16 +122,17 @@ def section(tool, quick, first=101, last=200, jobs=2):
     label_rows(lines, rows)
     correction_rows(lines, rows)
     return ["## Narrowings (`correct-narrowing`)", "",
-            f"Seeds {first} to {last}, each as a tree with dips of the contrast, with stenoses, and with neither, imaged with blur,",
-            "noise, partial volume and uneven contrast, and extracted at one threshold. The vessels are at least 6 voxels wide. The",
-            "depth of a place is the part of the healthy radius that the surface lacks there, beside its own bias; goals are for",
-            f"places deeper than 1 voxel and 20 %. {len(errors)} seeds could not be measured.", "",
+            f"Seeds {first} to {last}, each as a tree with dips of the contrast, with stenoses, and with neither, imaged with",
+            "blur, noise, partial volume and uneven contrast, and extracted at one threshold. The vessels are at least 6 voxels",
+            "wide. The depth of a place is the part of the healthy radius that the surface lacks there, beside its own bias; goals",
+            f"are for places deeper than 1 voxel and 20 %. {len(errors)} seeds could not be measured.", "",
             table(["", "goal", "measured", ""], rows), "", curve(lines)]
 
 
 def baseline(first, last, jobs):
     """What there is without the operation."""
-    lines = ["| | deep places | called narrow by `widen` | median share missing, one threshold | local levels |", "|---" * 5 + "|"]
+    lines = ["| | deep places | called narrow by `widen` | median share missing, one threshold | local levels |",
+             "|---" * 5 + "|"]
     for fault in ("dip", "stenosis"):
         deep = [p for line in measure(fault, first, last, jobs, "baseline") for p in line.get("places", []) if is_deep(p)]
         shares = [statistics.median([p[key] for p in deep]) if deep else float("nan") for key in ("share", "local_share")]

@@ -13,7 +13,7 @@ import subprocess
 
 import common
 
-BENCH = os.path.join(common.BUILD, "tests", "bench_stamp")
+BENCH = os.path.join(common.BUILD, "bench_stamp")
 SOUND_GOAL, SECONDS_GOAL = 0.99, 5.0
 
 
@@ -52,16 +52,16 @@ def times():
     slowest = max(line["cpu_seconds"] for line in lines)
     fewest = min(line["triangles"] for line in lines)
     load = os.getloadavg()[0]
-    return [f"| slowest of {len(lines)} stamps on {fewest:,} triangles or more, processor time of all threads (load of the machine {load:.1f}) | "
-            f"{SECONDS_GOAL:.0f} s | {slowest:.2f} s |"]
+    return [f"| slowest of {len(lines)} stamps on {fewest:,} triangles or more, processor time of all threads "
+            f"(load of the machine {load:.1f}) | {SECONDS_GOAL:.0f} s | {slowest:.2f} s |"]
 
 
 def section(tool, quick, first=101):
     """Markdown lines. \\param tool the program (unused: the bench links the library)"""
     last = first + (19 if quick else 99)
     return ["## stamp", "",
-            f"Seeds {first}-{last}: two vessels of 1.5 to 2.5 mm radius that cross, joined by a bridge of 0.2 to 0.6 of the thinner",
-            "one's radius, as raw iso-surfaces (cells of 0.3 mm) or remeshed. Half of the placements are a slab aligned by the",
+            f"Seeds {first}-{last}: two vessels of 1.5 to 2.5 mm radius that cross, joined by a bridge of 0.2 to 0.6 of the",
+            "thinner one's radius, as raw iso-surfaces (cells of 0.3 mm) or remeshed. Half of the placements are a slab aligned by the",
             "contact; the others are boxes, capsules and swept polygons at random places and angles, subtracted or added, with",
             "random blends. `tests/bench/stamp_bench.cpp` checks each result.", "",
             "| | goal | measured |", "|---|---|---|", *placements(first, last), *times(), ""]

@@ -47,10 +47,11 @@ Scene imaged_tube(bool stenosis) {
     }
     PhantomDescription description;
     description.parts = {{"tube", vessel, 0.0}};
+    description.imaging.spacing = Vec3::Constant(0.4);
     description.imaging.blur = Vec3::Constant(0.5);
     if (!stenosis)
         description.imaging.dips = {
-            {.part = "tube", .centre = Vec3(0, 0, 18), .reach = 6.0, .core = 0.4, .wall = 0.65}};
+            {.part = "tube", .centre = Vec3(0, 0, 18), .reach = 6.0, .core = 0.4, .wall = 0.75}};
     Scene scene;
     scene.image = phantom_image(description, PhantomField(description.parts));
     ExtractionParameters parameters{.method = ExtractionMethod::Threshold};

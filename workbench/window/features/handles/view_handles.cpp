@@ -8,6 +8,7 @@
 #include "workbench/window/features/handles/cut_handles.h"
 #include "workbench/window/features/handles/handles_feature.h"
 #include "workbench/window/features/handles/length_handles.h"
+#include "workbench/window/features/handles/stretch_handles.h"
 #include "workbench/window/features/handles/tool_handles.h"
 #include "workbench/window/features/openings/openings_feature.h"
 #include "workbench/window/widgets/ui.h"
@@ -65,6 +66,8 @@ void ViewHandles::take_shape(const PanelContext& c) {
         shape_ = tool_shape(*form, bounds(*model));
     else if (has_field(*form, Meaning::Openings))
         shape_ = length_shape(*form, openings_);
+    else if (has_stretch(*form))
+        shape_ = stretch_shape(*form);
     else if (cut_form_ && cut_)
         shape_ = cut_shape(*cut_form_, *cut_);
     if (!c.core.armed().empty()) shape_.handles.clear();
@@ -129,6 +132,7 @@ std::vector<FieldText> ViewHandles::texts(const PanelContext& c, const Vec3& to,
             return tool_texts(before, bounds(*model), start_.index, to);
     if (has_field(before, Meaning::Openings))
         return length_texts(before, start_.openings, start_.index, to, snap);
+    if (has_stretch(before)) return stretch_texts(before, start_.index, to);
     if (!start_.cut || !start_.cut_form) return {};
     std::vector<FieldText> moved = cut_texts(*start_.cut_form, *start_.cut, start_.index, to);
     const OpeningsModel& openings = c.core.get<OpeningsFeature>().openings();
