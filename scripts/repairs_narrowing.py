@@ -124,8 +124,8 @@ def section(tool, quick, first=101, last=200, jobs=2):
     return ["## Narrowings (`correct-narrowing`)", "",
             f"Seeds {first} to {last}, each as a tree with dips of the contrast, with stenoses, and with neither, imaged with",
             "blur, noise, partial volume and uneven contrast, and extracted at one threshold. The vessels are at least 6 voxels",
-            "wide. The depth of a place is the part of the healthy radius that the surface lacks there, beside its own bias; goals",
-            f"are for places deeper than 1 voxel and 20 %. {len(errors)} seeds could not be measured.", "",
+            "wide. The depth of a place is the part of the healthy radius that the surface lacks there, beside its own bias;",
+            f"goals are for places deeper than 1 voxel and 20 %. {len(errors)} seeds could not be measured.", "",
             table(["", "goal", "measured", ""], rows), "", curve(lines)]
 
 
