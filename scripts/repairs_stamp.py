@@ -61,9 +61,9 @@ def section(tool, quick, first=101):
     last = first + (19 if quick else 99)
     return ["## stamp", "",
             f"Seeds {first}-{last}: two vessels of 1.5 to 2.5 mm radius that cross, joined by a bridge of 0.2 to 0.6 of the",
-            "thinner one's radius, as raw iso-surfaces (cells of 0.3 mm) or remeshed. Half of the placements are a slab aligned by",
-            "the contact; the others are boxes, capsules and swept polygons at random places and angles, subtracted or added, with",
-            "random blends. `tests/bench/stamp_bench.cpp` checks each result.", "",
+            "thinner one's radius, as raw iso-surfaces (cells of 0.3 mm) or remeshed. Half of the placements are a slab",
+            "aligned by the contact; the others are boxes, capsules and swept polygons at random places and angles, subtracted",
+            "or added, with random blends. `tests/bench/stamp_bench.cpp` checks each result.", "",
             "| | goal | measured |", "|---|---|---|", *placements(first, last), *times(), ""]
 
 
