@@ -43,7 +43,8 @@ Scene imaged_tube(bool stenosis) {
     VesselShape vessel;
     for (int i = 0; i <= 18; ++i) {
         vessel.points.push_back(Vec3(0.0, 0.0, 2.0 * i));
-        vessel.radii.push_back(stenosis && i == 9 ? 1.2 : 2.0);
+        const double away = std::abs(i - 9) / 3.0;
+        vessel.radii.push_back(stenosis && away < 1.0 ? 2.0 - 0.8 * (1.0 - away * away) : 2.0);
     }
     PhantomDescription description;
     description.parts = {{"tube", vessel, 0.0}};
