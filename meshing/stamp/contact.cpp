@@ -19,7 +19,8 @@ namespace {
 constexpr int kDirections = 120;      ///< tried of the half sphere: 15 degrees apart
 constexpr double kFarthest = 4.0;     ///< of the way across the lumen: what is looked at [-]
 constexpr double kFinestTurn = 0.01;  ///< [rad]
-constexpr double kWider = 1.15;       ///< sections beside a waist are larger by this [-]
+constexpr double kWider = 1.5;  ///< sections beside a waist are larger by this [-]: what narrows
+                                ///< less between two wide places may be a vessel of its own
 /// Where that is asked, in square roots of its area [-]: a bridge may be longer than wide.
 constexpr std::array kBeside = {0.6, 1.0, 1.6};
 
