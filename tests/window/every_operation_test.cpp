@@ -81,14 +81,19 @@ private:
     std::string folder_;
 };
 
+void fill_field(Driver& window, const std::string& name, const std::string& text) {
+    INFO(name << "=" << text);
+    if (!window.reveal("field." + name)) REQUIRE(window.click_item("field.more"));
+    REQUIRE(window.fill_item("field." + name, text));
+    REQUIRE(window.app().place().form()->field(name).text == text);
+}
+
+/// Choices first: other fields may be there with one of them only.
 void fill(Driver& window, const Arguments& values) {
-    for (const auto& [name, value] : values.values()) {
-        const std::string text = to_text(value);
-        INFO(name << "=" << text);
-        if (!window.reveal("field." + name)) REQUIRE(window.click_item("field.more"));
-        REQUIRE(window.fill_item("field." + name, text));
-        REQUIRE(window.app().place().form()->field(name).text == text);
-    }
+    for (const bool choices : {true, false})
+        for (const auto& [name, value] : values.values())
+            if (std::holds_alternative<std::string>(value) == choices)
+                fill_field(window, name, to_text(value));
 }
 
 /// The newest edit of the current state.
