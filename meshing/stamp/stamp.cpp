@@ -186,15 +186,25 @@ std::vector<double> sizes_of(const Corefined& both, const Surface& part, double 
     return sizes;
 }
 
+/// 1 at the vertices of caps and openings, which stay flat.
+std::vector<std::uint8_t> at_caps(const Surface& surface) {
+    std::vector<std::uint8_t> caps(surface.vertex_count(), 0);
+    for (TriangleId t = 0; t < surface.triangle_count(); ++t)
+        if (surface.patch_of(t).kind != PatchKind::Wall)
+            for (const VertexId v : surface.triangles()[t]) caps[v] = 1;
+    return caps;
+}
+
 /// Vertices near the seam that may move, and whose neighbours are all part of the piece.
 std::vector<VertexId> fairing_zone(const EditedPart& piece, const Corefined& both, double blend) {
     std::vector<Triangle> segments;
     for (const auto& [a, b] : both.seam) segments.push_back({a, b, b});
     const SurfaceDistance seam(both.surface.points(), segments);
     const std::vector<std::uint8_t>& border = piece.surface.topology->boundary_vertices();
+    const std::vector<std::uint8_t> caps = at_caps(piece.surface);
     std::vector<VertexId> zone;
     for (VertexId v = 0; v < piece.former.size(); ++v)
-        if (piece.former[v] == kNewVertex && !border[v] &&
+        if (piece.former[v] == kNewVertex && !border[v] && !caps[v] &&
             seam.closest_point(piece.surface.points()[v], blend))
             zone.push_back(v);
     return zone;

@@ -71,19 +71,18 @@ std::shared_ptr<const CenterlineGraph> centerlines(const Surface& surface, Outco
 constexpr double kEdgesAcross = 4.0;
 
 /// \throw AlgorithmFailure if a cap collapsed: its vessel's end would be wall
-void require_openings(const Surface& before, const Remeshed& after) {
+void require_openings(const Surface& before, const Surface& after, double edge) {
     for (std::size_t p = 0; p < before.patches.size(); ++p) {
         const auto has = [p](const Surface& surface) {
             return std::ranges::find(*surface.patch_labels, p) != surface.patch_labels->end();
         };
-        if (before.patches[p].kind == PatchKind::Wall || !has(before) || has(after.surface))
-            continue;
+        if (before.patches[p].kind == PatchKind::Wall || !has(before) || has(after)) continue;
         const double diameter = patch_shape(before, p).diameter();
         throw DiagnosedFailure(
             {.code = "opening-lost",
              .operation = "remesh",
              .place = patch_shape(before, p).plane.point,
-             .figures = {{"edge_mm", after.report.edge}, {"diameter_mm", diameter}},
+             .figures = {{"edge_mm", edge}, {"diameter_mm", diameter}},
              .words = {{"opening", before.patches[p].name}},
              .remedies = {
                  {.arguments = {{"min_edge", formatted(diameter / kEdgesAcross, "%.2g")}}}}});
@@ -120,7 +119,16 @@ void resolve_edges(const RemeshReport& figures, Arguments& resolved) {
     resolved.set("max_edge", figures.max_edge);
 }
 
+/// Around a place, the triangles beside it decide how their size changes.
+void refuse_what_is_of_the_whole(const Arguments& arguments) {
+    for (const char* name : {"min_edge", "max_edge", "feature_angle"})
+        if (arguments.has(name))
+            throw UsageError("remesh: " + std::string(name) +
+                             " is of the whole wall, and has no effect with at");
+}
+
 Outcome run_near(const Scene& scene, const Arguments& arguments, const Progress& progress) {
+    refuse_what_is_of_the_whole(arguments);
     const Surface& surface = surface_of(scene);
     const SurfaceDistance places = distance_to(surface);
     Outcome outcome;
@@ -129,6 +137,7 @@ Outcome run_near(const Scene& scene, const Arguments& arguments, const Progress&
     LocalRemeshed remeshed =
         remesh_near(surface, places, *near, arguments.optional_real("edge"), progress);
     const LocalRemeshReport& figures = remeshed.report;
+    require_openings(surface, remeshed.surface, figures.edge);
     outcome.resolved.set("edge", figures.edge);
     outcome.report = std::make_shared<nlohmann::ordered_json>(
         nlohmann::ordered_json{{"edge_mm", figures.edge},
@@ -154,7 +163,7 @@ Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) 
         remesh(features ? features->surface : surface, parameters_from(outcome.resolved),
                lines.get(), progress.part(0.3, 1.0));
     if (features) remeshed.surface = features->restored(remeshed.surface);
-    require_openings(surface, remeshed);
+    require_openings(surface, remeshed.surface, remeshed.report.edge);
     const RemeshReport& figures = remeshed.report;
     resolve_edges(figures, outcome.resolved);
     outcome.report = report_from(figures, features);

@@ -154,15 +154,14 @@ std::vector<StretchVertex> stretch_vertices(const Surface& surface, const Axis& 
     const auto belongs = [&](const StretchVertex& v) {
         return v.along > widening.first() && v.along < widening.last();
     };
-    const VertexId seed =
-        surface.triangles()[distance_to(surface).closest_point(narrowing.place).triangle][0];
+    const TriangleId nearest = distance_to(surface).closest_point(narrowing.place).triangle;
     std::vector<StretchVertex> found;
     std::vector<std::uint8_t> seen(x.size(), 0);
     const auto visit = [&](VertexId v) {
         if (std::exchange(seen[v], std::uint8_t{1})) return;
         if (const StretchVertex at = placed(v); belongs(at)) found.push_back(at);
     };
-    visit(seed);
+    for (const VertexId corner : surface.triangles()[nearest]) visit(corner);
     for (std::size_t i = 0; i < found.size(); ++i)
         for (const VertexId v : surface.topology->rings().row(found[i].vertex)) visit(v);
     return found;
@@ -240,11 +239,11 @@ Diagnostic nearly_closed(const Narrowing& narrowing) {
 void check(const Narrowing& narrowing, const NarrowingCorrection& parameters) {
     require_range("strength", parameters.strength, 0.0, 1.0);
     require_positive("blend", parameters.blend);
-    if (!parameters.radius) return;
-    require_positive("radius", *parameters.radius);
-    if (*parameters.radius > narrowing.found_radius) return;
+    const double radius = parameters.radius.value_or(narrowing.expected_radius);
+    require_positive("radius", radius);
+    if (radius > narrowing.found_radius) return;
     Diagnostic small = refusal("narrowing-radius-small", narrowing);
-    small.figures = {{"radius_mm", *parameters.radius}, {"found_mm", narrowing.found_radius}};
+    small.figures = {{"radius_mm", radius}, {"found_mm", narrowing.found_radius}};
     small.remedies = {{.arguments = {{"radius", ""}}}};
     throw DiagnosedInput(small);
 }
@@ -288,6 +287,8 @@ CorrectedNarrowing correct_narrowing(const Surface& surface, const CenterlineGra
         result.farthest = std::max(result.farthest, way);
         ++result.moved;
     }
+    if (result.moved == 0 && parameters.strength > 0.0)
+        throw DiagnosedFailure(refusal("narrowing-without-vessel", narrowing));
     progress.report(0.5, "checking the walls around");
     require_room(surface, moved, vertices, narrowing, progress);
     result.radius = narrowing.found_radius * widening.factor(narrowing.deepest);

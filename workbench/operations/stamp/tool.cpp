@@ -1,6 +1,8 @@
 #include "workbench/operations/stamp/tool.h"
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 #include "geometry/kernel/cross_section.h"
 #include "geometry/kernel/diagnosed_error.h"
@@ -74,6 +76,85 @@ void resolve_swept(const Surface& surface, const SurfaceDistance& places, Argume
     set_if_missing(arguments, "radius", kThick * anchor_at(surface, places, path.front()).radius);
 }
 
+Condition with_shape(std::vector<std::string> shapes) {
+    return {"shape", std::move(shapes)};
+}
+
+std::vector<Parameter> place_parameters() {
+    using enum ParameterType;
+    const Condition placed = with_shape({"box", "capsule"});
+    return {{.name = "shape",
+             .type = Choice,
+             .default_value = "box",
+             .help = "the tool's body; a polygon is swept along path",
+             .choices = {"box", "capsule", "polygon"}},
+            {.name = "at",
+             .type = Point,
+             .unit = "mm",
+             .help = "a place on the wall of the contact, from which the box takes its plane and "
+                     "its waist; of a capsule: its centre",
+             .only_with = placed,
+             .meaning = Meaning::Place},
+            {.name = "centre",
+             .type = Point,
+             .unit = "mm",
+             .help = "middle of the tool; default: that of the contact's waist, or at",
+             .only_with = placed,
+             .meaning = Meaning::Place},
+            {.name = "direction",
+             .type = Point,
+             .unit = "-",
+             .help = "across which the box is as thick as thickness, or along which a capsule "
+                     "lies; default: across the contact; of a capsule: out of the wall",
+             .only_with = placed},
+            {.name = "along",
+             .type = Point,
+             .unit = "-",
+             .help = "direction of the box's length; default: the longer side of the contact's "
+                     "waist",
+             .only_with = with_shape({"box"}),
+             .use = Use::Rare}};
+}
+
+Parameter size_parameter(const char* name, const char* help, std::vector<std::string> shapes) {
+    return {.name = name,
+            .unit = "mm",
+            .help = help,
+            .minimum = 0.0,
+            .above_minimum = true,
+            .only_with = with_shape(std::move(shapes))};
+}
+
+std::vector<Parameter> size_parameters() {
+    return {
+        size_parameter("thickness",
+                       "the gap that a box leaves; default: a quarter of the waist's width",
+                       {"box"}),
+        size_parameter("radius",
+                       "of a capsule, or of a polygon's corners; default: half the vessel's radius",
+                       {"capsule", "polygon"}),
+        size_parameter("length",
+                       "of a box, or of a capsule without its ends; default: a third more than the "
+                       "waist's; else the vessel's diameter",
+                       {"box", "capsule"}),
+        size_parameter("width", "of a box; default: a third more than the waist's", {"box"})};
+}
+
+std::vector<Parameter> path_parameters() {
+    return {{.name = "path",
+             .type = ParameterType::List,
+             .unit = "mm",
+             .help = "the points of the path, x, y, z one after the other",
+             .only_with = with_shape({"polygon"})},
+            {.name = "sides",
+             .type = ParameterType::Integer,
+             .default_value = std::int64_t{6},
+             .help = "of the polygon",
+             .minimum = 3,
+             .maximum = 64,
+             .only_with = with_shape({"polygon"})}};
+}
+
 }  // namespace
 
 void resolve_tool(const Surface& surface, const SurfaceDistance& places, Arguments& arguments) {
@@ -126,70 +207,10 @@ ToolBody tool_from(const Arguments& arguments) {
 }
 
 std::vector<Parameter> tool_parameters() {
-    using enum ParameterType;
-    const Condition box{"shape", {"box"}}, placed{"shape", {"box", "capsule"}},
-        round{"shape", {"capsule", "polygon"}}, swept{"shape", {"polygon"}};
-    const auto length = [](const char* name, const char* help, const Condition& only_with) {
-        return Parameter{.name = name,
-                         .unit = "mm",
-                         .help = help,
-                         .minimum = 0.0,
-                         .above_minimum = true,
-                         .only_with = only_with};
-    };
-    return {
-        {.name = "shape",
-         .type = Choice,
-         .default_value = "box",
-         .help = "the tool's body; a polygon is swept along path",
-         .choices = {"box", "capsule", "polygon"}},
-        {.name = "at",
-         .type = Point,
-         .unit = "mm",
-         .help = "a place on the wall of the contact, from which the box takes its plane and "
-                 "its waist; of a capsule: its centre",
-         .only_with = placed,
-         .meaning = Meaning::Place},
-        {.name = "centre",
-         .type = Point,
-         .unit = "mm",
-         .help = "middle of the tool; default: that of the contact's waist, or at",
-         .only_with = placed,
-         .meaning = Meaning::Place},
-        {.name = "direction",
-         .type = Point,
-         .unit = "-",
-         .help = "across which the box is as thick as thickness, or along which a capsule lies; "
-                 "default: across the contact; of a capsule: out of the wall",
-         .only_with = placed},
-        {.name = "along",
-         .type = Point,
-         .unit = "-",
-         .help = "direction of the box's length; default: the longer side of the contact's "
-                 "waist",
-         .only_with = box,
-         .use = Use::Rare},
-        length("thickness", "the gap that a box leaves; default: a quarter of the waist's width",
-               box),
-        length("radius",
-               "of a capsule, or of a polygon's corners; default: half the vessel's radius", round),
-        length("length",
-               "of a box, or of a capsule without its ends; default: a third more than the "
-               "waist's; else the vessel's diameter",
-               placed),
-        length("width", "of a box; default: a third more than the waist's", box),
-        {.name = "path",
-         .type = List,
-         .unit = "mm",
-         .help = "the points of the path, x, y, z one after the other",
-         .only_with = swept},
-        {.name = "sides",
-         .type = Integer,
-         .default_value = std::int64_t{6},
-         .help = "of the polygon",
-         .minimum = 3,
-         .maximum = 64,
-         .only_with = swept}};
+    std::vector<Parameter> table = place_parameters();
+    for (std::vector<Parameter> more : {size_parameters(), path_parameters()})
+        std::ranges::move(more, std::back_inserter(table));
+    return table;
 }
 
 }  // namespace vesselbench
