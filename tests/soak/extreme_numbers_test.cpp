@@ -79,6 +79,7 @@ Value met(const Operation& operation, const Condition& condition,
     const Parameter& needed = find_parameter(operation, condition.parameter);
     if (needed.type == ParameterType::File) return ground.mask;
     if (needed.meaning == Meaning::Tip) return ground.end;
+    if (needed.meaning == Meaning::Place) return ground.wall;
     return checked_value(needed, Value("1"));
 }
 

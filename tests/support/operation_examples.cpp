@@ -43,12 +43,18 @@ void add_scaled(const Operation& operation, const Arguments& values, double radi
 
 Arguments example_arguments(const Operation& operation, const ExampleGround& ground) {
     Arguments all;
+    std::size_t places =
+        0;  // several of one operation are apart along the vessel, which is along z
     for (const Parameter& parameter : operation.parameters) {
         if (!parameter.required && parameter.type != ParameterType::File &&
             std::ranges::count(operation.example.placed, parameter.name) == 0)
             continue;
-        if (const auto value = found_on(ground, operation, parameter))
-            all.set(parameter.name, *value);
+        auto value = found_on(ground, operation, parameter);
+        if (value && parameter.meaning == Meaning::Place) {
+            constexpr double kApart[] = {0.0, -1.0, 1.0};
+            value = Vec3(ground.wall + ground.radius * kApart[places++ % 3] * Vec3::UnitZ());
+        }
+        if (value) all.set(parameter.name, *value);
     }
     add_scaled(operation, operation.example.given, ground.radius, all);
     return all;

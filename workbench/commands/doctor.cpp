@@ -6,6 +6,7 @@
 #include <thread>
 
 #include <nlohmann/json.hpp>
+#include <unistd.h>
 
 #include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
@@ -57,8 +58,11 @@ Check memory_check() {
         free < kLittleMemory ? "large images and meshes may not fit: close other programs" : ""};
 }
 
-Check disk_check(const std::string& name, const fs::path& folder) {
+/// \param place finds the folder, or says why it is unknown
+Check disk_check(const std::string& name, fs::path (*place)(std::error_code&)) {
     std::error_code error;
+    const fs::path folder = place(error);
+    if (error) return {name, "unknown", error.message()};
     const double free = static_cast<double>(fs::space(folder, error).available) / (1U << 30U);
     if (error) return {name, "unknown", "the folder cannot be read"};
     return {name, gibibytes(free) + " free",
@@ -113,8 +117,9 @@ Check program_check(const std::string& name, const std::string& program,
     std::istringstream folders(path == nullptr ? "" : path);
     for (std::string folder; std::getline(folders, folder, ':');) {
         std::error_code ignored;
-        if (fs::is_regular_file(fs::path(folder) / program, ignored))
-            return {name, (fs::path(folder) / program).string(), ""};
+        const fs::path file = fs::path(folder) / program;
+        if (fs::is_regular_file(file, ignored) && ::access(file.c_str(), X_OK) == 0)
+            return {name, file.string(), ""};
     }
     return {name, "not found", lacking};
 }
@@ -129,8 +134,8 @@ std::vector<Check> checks() {
     return {{"vesselbench", version(), ""},
             {"processors", std::to_string(std::thread::hardware_concurrency()), ""},
             memory_check(),
-            disk_check("this folder", fs::current_path()),
-            disk_check("temporary files", fs::temp_directory_path()),
+            disk_check("this folder", &fs::current_path),
+            disk_check("temporary files", &fs::temp_directory_path),
             opengl_check(),
             display_check(),
             sandbox_check(),

@@ -29,10 +29,12 @@ std::vector<Finding> found_by(const Detector& detector, FindingSubject& subject,
 
 /// True if a finding that is there already is the cause of this one.
 bool is_explained(const Finding& finding, const std::vector<Finding>& earlier) {
-    constexpr double kBeside = 1.5;  ///< [sum of the two sizes]
+    constexpr double kBeside = 1.5;   ///< [sum of the two sizes]
+    constexpr double kLargest = 2.0;  ///< [sizes]: a whole piece apart explains little beside it
     return std::ranges::any_of(earlier, [&](const Finding& cause) {
         return cause.kind != finding.kind && cause.certainty >= finding.certainty &&
-               (cause.place - finding.place).norm() < kBeside * (cause.size + finding.size);
+               (cause.place - finding.place).norm() <
+                   kBeside * (std::min(cause.size, kLargest * finding.size) + finding.size);
     });
 }
 

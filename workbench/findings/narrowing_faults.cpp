@@ -1,5 +1,7 @@
 // Vessels that are narrower than beside the place.
 
+#include <algorithm>
+
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/narrowing/narrowing.h"
 #include "workbench/findings/detectors.h"
@@ -8,6 +10,9 @@
 namespace vesselbench {
 
 namespace {
+
+/// As of exact tests.
+constexpr double kMostCertain = 0.98;
 
 const char* words_of(ImageVerdict verdict) {
     if (verdict == ImageVerdict::ContrastFalls) return "the contrast falls there";
@@ -39,7 +44,7 @@ std::vector<Finding> find_narrow_vessels(FindingSubject& subject, const Progress
         findings.push_back({.kind = "narrowing",
                             .place = narrow.place,
                             .size = 0.5 * (narrow.to - narrow.from),
-                            .certainty = narrow.certainty,
+                            .certainty = std::min(narrow.certainty, kMostCertain),
                             .evidence = std::move(evidence)});
     }
     return findings;

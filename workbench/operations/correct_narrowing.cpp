@@ -134,18 +134,19 @@ Operation correct_narrowing_operation() {
               .unit = "mm",
               .help = "one end of the stretch, near the vessel's axis; default: where the "
                       "narrowing ends",
-              .use = Use::Rare,
-              .meaning = Meaning::Place},
+              .meaning = Meaning::Place,
+              .use = Use::Rare},
              {.name = "to",
               .type = Point,
               .unit = "mm",
               .help = "the stretch's other end; default: where the narrowing ends",
-              .use = Use::Rare,
-              .meaning = Meaning::Place}},
+              .meaning = Meaning::Place,
+              .use = Use::Rare}},
         .run = &run,
         .decided = &decided,
         .thesis = "4.2.4",
-        .example = {.given = {{"radius", 1.1}}, .changed = {{"strength", 0.5}}}};
+        .example = {
+            .placed = {"from", "to"}, .given = {{"radius", 1.1}}, .changed = {{"strength", 0.5}}}};
 }
 
 }  // namespace vesselbench

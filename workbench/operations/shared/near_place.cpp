@@ -15,7 +15,7 @@ std::vector<Parameter> near_parameters(const std::string& what) {
          .meaning = Meaning::Place},
         {.name = "within",
          .unit = "mm",
-         .help = "with at: distance from it along the surface; default: the vessel's radius "
+         .help = "distance from it along the surface; default: the vessel's radius "
                  "there",
          .minimum = 0.0,
          .above_minimum = true,

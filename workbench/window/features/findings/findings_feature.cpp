@@ -47,30 +47,38 @@ void FindingsFeature::judge() {
 }
 
 bool FindingsFeature::update() {
-    bool changed = false;
+    bool changed = drop_stale();
     if (search_.poll()) {
         changed = true;
+        const int steps = std::exchange(tour_, 0);
         if (auto found = search_.take()) {
             found_ = std::move(*found);
             judge();
-            if (tour_ != 0) go(std::exchange(tour_, 0));
+            if (steps != 0) go(steps);
         }
     }
     if (storing_.poll()) {
         changed = true;
         if (auto dismissals = storing_.take()) {
             found_.dismissals = std::move(*dismissals);
-            judge();
+            if (findings_) judge();
         } else if (!storing_.problem().empty()) {
             core_.document.tell(make_message(MessageKind::Error, storing_.problem()));
         }
     }
-    const Scene* scene = core_.document.newest();
-    if (findings_ && (scene == nullptr || !scene->surface || scene->surface->positions != of_)) {
-        findings_.reset();
-        changed = true;
-    }
     return changed;
+}
+
+bool FindingsFeature::drop_stale() {
+    const Scene* scene = core_.document.newest();
+    const bool same = scene != nullptr && scene->surface && scene->surface->positions == of_;
+    if (same || !of_) return false;
+    search_.forget();
+    of_.reset();
+    findings_.reset();
+    at_.reset();
+    asked_.reset();
+    return true;
 }
 
 const Finding* FindingsFeature::finding(std::size_t index) const {

@@ -76,6 +76,8 @@ private:
 
     void forget();
     void judge();
+    /// \return true if findings of another model were dropped
+    bool drop_stale();
     [[nodiscard]] const Finding* finding(std::size_t index) const;
     [[nodiscard]] Step step_for(const std::string& operation) const;
 
