@@ -254,12 +254,23 @@ EditedPart remesh_part(const Surface& part, std::vector<double> sizes,
     return edited;
 }
 
+/// Each halving of the edges takes a ring of triangles and rounds of splits.
+void check_fineness(double edge, double present) {
+    constexpr double kFinest = 1000.0;  ///< times shorter than what is there
+    if (edge * kFinest >= present) return;
+    throw AlgorithmFailure("edges of " + formatted(edge, "%.3g mm") +
+                           " are more than a thousand times shorter than those there, " +
+                           formatted(present, "%.3g mm") +
+                           ": give a larger edge, or a larger within");
+}
+
 LocalRemeshed remesh_near(const Surface& surface, const SurfaceDistance& places,
                           const NearPlace& near, std::optional<double> edge,
                           const Progress& progress) {
     const Core core = core_of(surface, places, near, edge);
     LocalRemeshReport report{.edge = core.edge};
     report.edge_before = mean_edge_of(surface, marked_around(surface, core.centre, core.vertices));
+    check_fineness(core.edge, report.edge_before);
     report.reach = core.within + std::max(0.0, report.edge_before - core.edge) / kSlope;
     std::vector<std::uint8_t> marked =
         marked_around(surface, core.centre, vertices_within(surface, core.centre, report.reach));
