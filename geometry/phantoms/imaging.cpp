@@ -94,8 +94,8 @@ float occupancy(const Image& grid, const PhantomField& field, int i, int j, int 
     if (std::abs(at_centre) > reach) return at_centre < 0.0 ? 1.0F : 0.0F;
     int inside = 0;
     for (int s = 0; s < kSupersampling * kSupersampling * kSupersampling; ++s) {
-        const Vec3 cell(s % kSupersampling, s / kSupersampling % kSupersampling,
-                        s / (kSupersampling * kSupersampling));
+        const int layer = s / (kSupersampling * kSupersampling);
+        const Vec3 cell(s % kSupersampling, s / kSupersampling % kSupersampling, layer);
         const Vec3 offset = (cell + Vec3::Constant(0.5)) / kSupersampling - Vec3::Constant(0.5);
         inside += field(grid.to_patient(Vec3(i, j, k) + offset)) < 0.0 ? 1 : 0;
     }
