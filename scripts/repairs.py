@@ -17,7 +17,7 @@ PAGE = os.path.join(common.ROOT, "docs", "repairs.md")
 HEAD = """# Repairs
 
 What the repairs of vessels achieve on phantoms whose truth is known, by `scripts/repairs.py`. Seeds 1 to 100 are there to build
-with; what is reported here are others, measured once. [operations.md](operations.md) lists the operations' parameters,
+with; the seeds that are reported here are others. [operations.md](operations.md) lists the operations' parameters,
 [findings.md](findings.md) the finder of artefacts.
 """
 
