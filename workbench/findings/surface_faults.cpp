@@ -84,15 +84,15 @@ std::vector<Finding> find_self_intersections(FindingSubject& subject, const Prog
     for (const auto& [root, triangles] :
          connected(surface, self_intersections(surface, progress))) {
         const Bounds box = bounds_of(surface, triangles);
-        findings.push_back(
-            {.kind = "self-intersection",
-             .place = box.centre(),
-             .size = 0.5 * box.diagonal(),
-             .certainty = kExact,
-             .evidence = {.code = "found-self-intersection",
-                          .figures = {{"pairs", static_cast<double>(triangles.size() / 2)},
-                                      {"size_mm", box.diagonal()}},
-                          .remedies = {{.operation = "repair"}}}});
+        const std::size_t pairs = triangles.size() / 2;
+        findings.push_back({.kind = "self-intersection",
+                            .place = box.centre(),
+                            .size = 0.5 * box.diagonal(),
+                            .certainty = kExact,
+                            .evidence = {.code = "found-self-intersection",
+                                         .figures = {{"pairs", static_cast<double>(pairs)},
+                                                     {"size_mm", box.diagonal()}},
+                                         .remedies = {{.operation = "repair"}}}});
     }
     sort_by_size(findings);
     return findings;
