@@ -161,7 +161,8 @@ std::vector<Grip> path_grips(const Arguments& used) {
                              moved[i] = to;
                              return path_texts(moved);
                          }});
-    const Vec3 last = path.back(), step = last - path[path.size() - 2];
+    const Vec3& last = path.back();
+    const Vec3 step = last - path[path.size() - 2];
     grips.push_back({{.name = "tool.path.add",
                       .point = last + kNextPoint * step,
                       .look = HandleLook::Ring,
