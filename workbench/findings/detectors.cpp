@@ -20,6 +20,16 @@ const FindingSubject::Lines* FindingSubject::lines(const Progress& progress) {
     return lines_ ? &*lines_ : nullptr;
 }
 
+const std::vector<WallSpot>& FindingSubject::spots(const Progress& progress) {
+    if (!spots_) {
+        const Lines* found = lines(progress);
+        spots_ = found == nullptr
+                     ? std::vector<WallSpot>()
+                     : wall_spots(surface_, wall_relief(surface_, *found->graph, progress));
+    }
+    return *spots_;
+}
+
 double FindingSubject::mean_edge() {
     if (!mean_edge_) mean_edge_ = mean_edge_length(surface_);
     return *mean_edge_;

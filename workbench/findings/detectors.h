@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geometry/kernel/progress.h"
+#include "geometry/vessel/artefacts/wall_relief.h"
 #include "geometry/vessel/centerlines/centerline_graph.h"
 #include "geometry/vessel/centerlines/stubs.h"
 #include "workbench/case/scene.h"
@@ -31,6 +32,9 @@ public:
     /// Found once; null: the surface has no centerlines. \throw Cancelled
     [[nodiscard]] const Lines* lines(const Progress& progress);
 
+    /// Found once; none without centerlines. \throw Cancelled
+    [[nodiscard]] const std::vector<WallSpot>& spots(const Progress& progress);
+
     [[nodiscard]] double mean_edge();  ///< [mm]
 
 private:
@@ -38,6 +42,7 @@ private:
     const Surface& surface_;
     bool searched_ = false;
     std::optional<Lines> lines_;
+    std::optional<std::vector<WallSpot>> spots_;
     std::optional<double> mean_edge_;
 };
 

@@ -63,12 +63,8 @@ Finding finding_of(const WallSpot& spot, FindingSubject& subject, const char* ki
 /// \param side 1: bumps, -1: dents
 std::vector<Finding> spots_on(FindingSubject& subject, double side, const char* kind,
                               const char* code, const Progress& progress) {
-    const auto* lines = subject.lines(progress);
-    if (lines == nullptr) return {};
-    const Surface& surface = subject.surface();
     std::vector<Finding> findings;
-    for (const WallSpot& spot :
-         wall_spots(surface, wall_relief(surface, *lines->graph, progress))) {
+    for (const WallSpot& spot : subject.spots(progress)) {
         if (spot.height * side <= 0.0) continue;
         findings.push_back(finding_of(spot, subject, kind, code));
         if (findings.size() == kMostSpots) break;
