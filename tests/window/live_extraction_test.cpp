@@ -30,14 +30,16 @@ std::string text_in(Driver& window, const std::string& field) {
     return window.app().place().form()->field(field).text;
 }
 
-/// Values that fall from 200 in the middle by 10 each mm; with 110 voxels along each side, more
-/// than a coarse image has.
+constexpr double kFall = 25.0;  // of the values each mm
+
+/// Values that fall from 200 in the middle; with 110 voxels along each side, more than a coarse
+/// image has. The ball fills little of it, so that a whole extraction is quick.
 Image cone_image(int size) {
     const double middle = 0.2 * (size - 1) / 2.0;
     Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
     matrix.topLeftCorner<3, 3>() *= 0.2;
     return image_of({size, size, size}, matrix, [&](const Vec3& p) {
-        return std::max(200.0 - 10.0 * (p - Vec3::Constant(middle)).norm(), 0.0);
+        return std::max(200.0 - kFall * (p - Vec3::Constant(middle)).norm(), 0.0);
     });
 }
 
@@ -85,7 +87,7 @@ double iso_of(Driver& window) {
 
 /// Volume of the ball above a value [mm^3].
 double ball_above(double iso) {
-    const double radius = (200.0 - iso) / 10.0;
+    const double radius = (200.0 - iso) / kFall;
     return 4.18879 * radius * radius * radius;
 }
 
