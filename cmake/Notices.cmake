@@ -1,7 +1,6 @@
 # Writes the notices of what the program contains of other works, as their packages state them:
 #   cmake -DOUT=FILE -DTHREE=LICENSE_OF_THREE_JS -P Notices.cmake
-set(packages libcgal-dev libeigen3-dev libopenmesh-dev nlohmann-json3-dev libcli11-dev libkainjow-mustache-dev
-  libxxhash-dev libstb-dev libimgui-dev fonts-dejavu-core fonts-roboto-unhinted fonts-materialdesignicons-webfont)
+file(STRINGS ${CMAKE_CURRENT_LIST_DIR}/../packaging/compiled_in.txt packages)
 set(text "Notices of the works of which vesselbench contains parts\n")
 foreach(package ${packages})
   file(READ /usr/share/doc/${package}/copyright notice)

@@ -14,9 +14,11 @@ install(CODE "
   execute_process(COMMAND \"${CMAKE_COMMAND}\" -DOUT=${made}/NOTICES
     -DTHREE=${CMAKE_SOURCE_DIR}/workbench/review/page/node_modules/three/LICENSE
     -P \"${CMAKE_SOURCE_DIR}/cmake/Notices.cmake\" COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND \"${CMAKE_SOURCE_DIR}/scripts/sbom\" \"${CMAKE_BINARY_DIR}/vesselbench\"
+    OUTPUT_FILE \"${made}/vesselbench.spdx.json\" COMMAND_ERROR_IS_FATAL ANY)
   file(COPY_FILE \"${CMAKE_SOURCE_DIR}/LICENSE\" \"${made}/LICENSE\")
   file(COPY_FILE \"${CMAKE_SOURCE_DIR}/CHANGELOG.md\" \"${made}/CHANGELOG.md\")
-  foreach(file IN ITEMS manual changelog NOTICES LICENSE CHANGELOG.md)
+  foreach(file IN ITEMS manual changelog NOTICES LICENSE CHANGELOG.md vesselbench.spdx.json)
     execute_process(COMMAND gzip -9nfk \"${made}/\${file}\" COMMAND_ERROR_IS_FATAL ANY)
   endforeach()
 ")
@@ -36,7 +38,9 @@ install(FILES ${made}/completion-fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/
 install(FILES packaging/vesselbench.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications)
 install(FILES packaging/vesselbench.svg DESTINATION ${CMAKE_INSTALL_DATADIR}/icons/hicolor/scalable/apps)
 install(FILES packaging/vesselbench.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/mime/packages)
+install(FILES packaging/vesselbench.metainfo.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/metainfo)
 install(FILES packaging/copyright README.md ${made}/changelog.gz ${made}/CHANGELOG.md.gz ${made}/NOTICES.gz ${made}/LICENSE.gz
+  ${made}/vesselbench.spdx.json.gz
   DESTINATION ${docs})
 foreach(page IN ITEMS ends findings gpu guide measures operations reliability repairs review verdicts-schema)
   install(FILES docs/${page}.md DESTINATION ${docs}/docs)
