@@ -74,6 +74,8 @@ SCENARIO("Findings are toured, treated and dismissed", "[window][findings]") {
         REQUIRE(shell->click_item("findings.accept.0"));
         REQUIRE(wait_until_idle(*shell));
         CHECK(shell->app().place().document.snapshot()->log.size() == edits + 1);
+        CHECK_THAT(shell->app().place().document.snapshot()->log.back().edit.note,
+                   Catch::Matchers::StartsWith("Bump: "));
         THEN("the findings are those of the new model") {
             wait_for_findings(*shell);
             for (const Finding& left : findings_of(*shell).findings()->open)

@@ -58,9 +58,9 @@ Scene scene_of(const Surface& surface) {
     return scene;
 }
 
-std::vector<Finding> of_kind(const std::vector<Finding>& all, const std::string& kind) {
+std::vector<Finding> of_kind(const FindingSearch& all, const std::string& kind) {
     std::vector<Finding> found;
-    std::ranges::copy_if(all, std::back_inserter(found),
+    std::ranges::copy_if(all.findings, std::back_inserter(found),
                          [&](const Finding& finding) { return finding.kind == kind; });
     return found;
 }
@@ -127,7 +127,7 @@ SCENARIO("The registry has each kind once, by a plain name", "[workbench][findin
 }
 
 SCENARIO("On a sound vessel nothing is called sure", "[workbench][findings]") {
-    for (const Finding& finding : find_findings(scene_of(vessel_with({})))) {
+    for (const Finding& finding : find_findings(scene_of(vessel_with({}))).findings) {
         CAPTURE(finding.id());
         CHECK(finding.certainty < kSure);
     }
@@ -204,7 +204,7 @@ SCENARIO("Faults of the triangles are found", "[workbench][findings]") {
                     "oblique-end", {0, 0, 24}, 1.0);
     }
     WHEN("none of this is so") {
-        CHECK(find_findings(scene_of(tube)).empty());
+        CHECK(find_findings(scene_of(tube)).findings.empty());
     }
 }
 
@@ -270,7 +270,7 @@ SCENARIO("Findings do not depend on where a model lies, and on its size", "[work
 
 SCENARIO("Every treatment is an operation with arguments it takes", "[workbench][findings]") {
     Scene scene = scene_of(vessel_with({vessel("stub", {0.5, 1, 0}, {-3.5, 1, 0}, 0.8)}));
-    for (const Finding& finding : find_findings(scene)) {
+    for (const Finding& finding : find_findings(scene).findings) {
         CAPTURE(finding.id());
         const Remedy* treatment = finding.treatment();
         if (treatment == nullptr) continue;
@@ -308,13 +308,52 @@ SCENARIO("A dismissal hides its finding, and no other place", "[workbench][findi
     CHECK_FALSE(is_of(dismissal, bump_at({1, 2, 4}, 1.0)));
     CHECK_FALSE(is_of(dismissal, bump_at({1, 2, 3}, 2.0)));  // it has grown
     const JudgedFindings all =
-        judged({bump_at({1, 2, 3}, 1.0), bump_at({1, 2, 5}, 1.0)},
+        judged({{bump_at({1, 2, 3}, 1.0), bump_at({1, 2, 5}, 1.0)}, {}},
                {dismissal, {.kind = "bump", .place = {9, 9, 9}, .size = 1.0}});
     REQUIRE(all.open.size() == 1);
     CHECK(all.open[0].place.z() == 5.0);
     REQUIRE(all.dismissed.size() == 2);
     CHECK(all.dismissed[0].finding);
     CHECK_FALSE(all.dismissed[1].finding);
+}
+
+SCENARIO("Each of two near findings has its own dismissal", "[workbench][findings]") {
+    const Finding sure = bump_at({1, 2, 3}, 1.0), other = bump_at({1, 2, 3.4}, 1.0);
+    const Dismissal of_other{.kind = "bump", .place = other.place, .size = 1.0};
+    const JudgedFindings one = judged({{sure, other}, {}}, {of_other});
+    REQUIRE(one.open.size() == 1);
+    CHECK(one.open[0].place == sure.place);
+    const Dismissal of_sure{.kind = "bump", .place = sure.place, .size = 1.0};
+    CHECK(judged({{sure, other}, {}}, {of_other, of_sure}).open.empty());
+}
+
+SCENARIO("A dismissal is taken back when its finding is gone", "[workbench][findings]") {
+    const std::string project = bumpy_project();
+    const std::string id = id_of(findings_in(project), "bump");
+    REQUIRE(run({"findings", project, "--dismiss", id, "--reason", "a plaque"}).exit_code == 0);
+    REQUIRE(run({"apply", project, "brush-smooth", "at=2.7,0,12", "radius=2", "strength=1",
+                 "passes=100"})
+                .exit_code == 0);
+    CHECK_THAT(run({"findings", project}).out, Contains(id + " (no longer found)"));
+    REQUIRE(run({"findings", project, "--restore", id}).exit_code == 0);
+    CHECK(findings_in(project)["dismissed"].empty());
+}
+
+SCENARIO("What could not be looked for is said", "[workbench][findings]") {
+    const Surface plate = make_surface({{0, 0, 0}, {9, 0, 0}, {9, 9, 0}, {0, 9, 0}},
+                                       {{0, 1, 2}, {0, 2, 3}});  // it has no lumen
+    const FindingSearch search = find_findings(scene_of(plate));
+    std::vector<std::string> kinds;
+    for (const auto& [kind, reason] : search.not_searched) {
+        kinds.push_back(kind);
+        CHECK_FALSE(reason.empty());
+    }
+    CHECK_THAT(kinds, Catch::Matchers::VectorContains(std::string("narrowing")));
+    const auto lines =
+        not_searched_lines({{"bump", "no lines"}, {"hole", "no rims"}, {"dent", "no lines"}});
+    REQUIRE(lines.size() == 2);
+    CHECK(lines[0] == "not looked for: Bump, Dent: no lines");
+    CHECK(find_findings(scene_of(vessel_with({}))).not_searched.empty());
 }
 
 SCENARIO("A finding is dismissed with a reason that stays in the project's record",

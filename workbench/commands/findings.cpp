@@ -41,7 +41,7 @@ void print_dismissed(const std::vector<DismissedFinding>& dismissed) {
     if (dismissed.empty()) return;
     std::vector<std::vector<std::string>> rows = {{"dismissed", "by", "time", "reason"}};
     for (const auto& [dismissal, finding] : dismissed)
-        rows.push_back({finding ? finding->id() : dismissal.kind + " (no longer found)",
+        rows.push_back({finding ? finding->id() : dismissal.id() + " (no longer found)",
                         dismissal.author, dismissal.time, dismissal.reason});
     std::cout << "\n" << as_columns(rows);
 }
@@ -65,14 +65,16 @@ void print_accepted(const LogEntry& entry, const FindingsArguments& arguments) {
         std::cout << "edit " << entry.edit.edit.id << ": " << entry.edit.operation << "\n";
 }
 
-void dismiss_one(const FindingsArguments& arguments, const Finding& finding) {
-    dismiss(arguments.project, finding, arguments.reason);
+void dismiss_one(const FindingsArguments& arguments, const FindingSearch& search) {
+    const Finding& finding = finding_meant(search.findings, arguments.dismissed);
+    dismiss(arguments.project, search, finding, arguments.reason);
     if (!arguments.json) std::cout << "dismissed: " << finding.id() << "\n";
 }
 
-void restore_one(const FindingsArguments& arguments, const Finding& finding) {
-    if (!restore(arguments.project, finding)) throw UsageError(finding.id() + " is not dismissed");
-    if (!arguments.json) std::cout << "restored: " << finding.id() << "\n";
+void restore_one(const FindingsArguments& arguments) {
+    const auto restored = restore(arguments.project, arguments.restored);
+    if (!restored) throw UsageError(shortened(arguments.restored) + " is not dismissed");
+    if (!arguments.json) std::cout << "restored: " << restored->id() << "\n";
 }
 
 void check(const FindingsArguments& arguments) {
@@ -88,15 +90,13 @@ void show_findings(const FindingsArguments& arguments, const Progress& progress)
     const std::string variant =
         variant_of(arguments.project, arguments.variant, *session.snapshot()->history);
     const Scene scene = session.scene(variant, progress.part(0.0, 0.3));
-    const std::vector<Finding> found = find_findings(scene, progress.part(0.3, 1.0));
+    const FindingSearch found = find_findings(scene, progress.part(0.3, 1.0));
     if (!arguments.accepted.empty())
         return print_accepted(
-            accept(session, finding_meant(found, arguments.accepted), variant, progress),
+            accept(session, finding_meant(found.findings, arguments.accepted), variant, progress),
             arguments);
-    if (!arguments.dismissed.empty())
-        dismiss_one(arguments, finding_meant(found, arguments.dismissed));
-    if (!arguments.restored.empty())
-        restore_one(arguments, finding_meant(found, arguments.restored));
+    if (!arguments.dismissed.empty()) dismiss_one(arguments, found);
+    if (!arguments.restored.empty()) restore_one(arguments);
     const JudgedFindings findings = judged(found, stored_dismissals(arguments.project));
     if (arguments.json) {
         Json json = {{"project", session.project().name()}, {"variant", variant}};
@@ -105,6 +105,8 @@ void show_findings(const FindingsArguments& arguments, const Progress& progress)
     } else if (arguments.dismissed.empty() && arguments.restored.empty()) {
         print_open(findings.open);
         print_dismissed(findings.dismissed);
+        for (const std::string& line : not_searched_lines(findings.not_searched))
+            std::cout << line << "\n";
     }
 }
 

@@ -8,25 +8,27 @@
 
 namespace vesselbench {
 
-const FindingSubject::Lines* FindingSubject::lines(const Progress& progress) {
-    if (!searched_) {
+bool FindingSubject::has_lines(const Progress& progress) {
+    if (!lines_ && without_lines_.empty()) {
         try {
             lines_ = Lines{centerlines_of(surface_, {}, progress), stubs_of(surface_)};
-        } catch (const AlgorithmFailure&) {  // a body without vessels
-        } catch (const InvalidInput&) {      // one without a lumen
+        } catch (const AlgorithmFailure& failure) {  // a body without vessels
+            without_lines_ = failure.what();
+        } catch (const InvalidInput& failure) {  // one without a lumen
+            without_lines_ = failure.what();
         }
-        searched_ = true;
     }
-    return lines_ ? &*lines_ : nullptr;
+    return lines_.has_value();
+}
+
+const FindingSubject::Lines& FindingSubject::lines(const Progress& progress) {
+    if (!has_lines(progress)) throw AlgorithmFailure(without_lines_);
+    return *lines_;
 }
 
 const std::vector<WallSpot>& FindingSubject::spots(const Progress& progress) {
-    if (!spots_) {
-        const Lines* found = lines(progress);
-        spots_ = found == nullptr
-                     ? std::vector<WallSpot>()
-                     : wall_spots(surface_, wall_relief(surface_, *found->graph, progress));
-    }
+    if (!spots_)
+        spots_ = wall_spots(surface_, wall_relief(surface_, *lines(progress).graph, progress));
     return *spots_;
 }
 

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "geometry/kernel/progress.h"
@@ -29,10 +30,14 @@ public:
         std::shared_ptr<const std::vector<Stub>> stubs;
     };
 
-    /// Found once; null: the surface has no centerlines. \throw Cancelled
-    [[nodiscard]] const Lines* lines(const Progress& progress);
+    /// Whether the surface has centerlines. \throw Cancelled
+    [[nodiscard]] bool has_lines(const Progress& progress);
 
-    /// Found once; none without centerlines. \throw Cancelled
+    /// Found once.
+    /// \throw AlgorithmFailure, each time, if the surface has no centerlines; Cancelled
+    [[nodiscard]] const Lines& lines(const Progress& progress);
+
+    /// Found once. \throw as lines()
     [[nodiscard]] const std::vector<WallSpot>& spots(const Progress& progress);
 
     [[nodiscard]] double mean_edge();  ///< [mm]
@@ -40,8 +45,8 @@ public:
 private:
     const Scene& scene_;
     const Surface& surface_;
-    bool searched_ = false;
     std::optional<Lines> lines_;
+    std::string without_lines_;  ///< why; empty: not searched, or found
     std::optional<std::vector<WallSpot>> spots_;
     std::optional<double> mean_edge_;
 };

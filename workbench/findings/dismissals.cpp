@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
+#include <utility>
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/printable.h"
@@ -54,6 +56,30 @@ void require_reason(const std::string& reason) {
     require_utf8(reason, "the reason");
 }
 
+struct Pair {
+    double distance = 0.0;  ///< [mm]
+    std::size_t finding = 0, dismissal = 0;
+};
+
+/// By finding, the dismissal that hides it: pairs are made from the nearest to the farthest.
+std::vector<std::optional<std::size_t>> nearest_dismissals(std::span<const Finding> findings,
+                                                           std::span<const Dismissal> dismissals) {
+    std::vector<Pair> pairs;
+    for (std::size_t i = 0; i < findings.size(); ++i)
+        for (std::size_t k = 0; k < dismissals.size(); ++k)
+            if (is_of(dismissals[k], findings[i]))
+                pairs.push_back({(dismissals[k].place - findings[i].place).norm(), i, k});
+    std::ranges::stable_sort(pairs, {}, &Pair::distance);
+    std::vector<std::optional<std::size_t>> hidden_by(findings.size());
+    std::vector<bool> used(dismissals.size());
+    for (const Pair& pair : pairs) {
+        if (hidden_by[pair.finding] || used[pair.dismissal]) continue;
+        hidden_by[pair.finding] = pair.dismissal;
+        used[pair.dismissal] = true;
+    }
+    return hidden_by;
+}
+
 /// \param said of the finding, in the record
 void store(const std::filesystem::path& project, const std::vector<Dismissal>& dismissals,
            const StoredChange& said) {
@@ -62,24 +88,27 @@ void store(const std::filesystem::path& project, const std::vector<Dismissal>& d
 
 }  // namespace
 
+std::string Dismissal::id() const {
+    return Finding{.kind = kind, .place = place}.id();
+}
+
 bool is_of(const Dismissal& dismissal, const Finding& finding) {
     const auto [small, large] = std::minmax(dismissal.size, finding.size);
     return dismissal.kind == finding.kind && large <= kSameSize * small &&
            (dismissal.place - finding.place).norm() <= 0.5 * small;
 }
 
-JudgedFindings judged(std::vector<Finding> findings, const std::vector<Dismissal>& dismissals) {
-    JudgedFindings result;
+JudgedFindings judged(FindingSearch search, const std::vector<Dismissal>& dismissals) {
+    const std::vector<std::optional<std::size_t>> hidden_by =
+        nearest_dismissals(search.findings, dismissals);
+    JudgedFindings result{.not_searched = std::move(search.not_searched)};
     for (const Dismissal& dismissal : dismissals) result.dismissed.push_back({dismissal, {}});
-    for (Finding& finding : findings) {
-        const auto known =
-            std::ranges::find_if(result.dismissed, [&](const DismissedFinding& dismissed) {
-                return !dismissed.finding && is_of(dismissed.dismissal, finding);
-            });
-        if (known == result.dismissed.end())
-            result.open.push_back(std::move(finding));
+    for (std::size_t i = 0; i < search.findings.size(); ++i) {
+        Finding& finding = search.findings[i];
+        if (const auto dismissal = hidden_by[i])
+            result.dismissed[*dismissal].finding = std::move(finding);
         else
-            known->finding = std::move(finding);
+            result.open.push_back(std::move(finding));
     }
     return result;
 }
@@ -95,11 +124,13 @@ std::vector<Dismissal> stored_dismissals(const std::filesystem::path& project) {
     return dismissals;
 }
 
-void dismiss(const std::filesystem::path& project, const Finding& finding,
-             const std::string& reason) {
+void dismiss(const std::filesystem::path& project, const FindingSearch& search,
+             const Finding& finding, const std::string& reason) {
     require_reason(reason);
-    std::vector<Dismissal> dismissals = stored_dismissals(project);
-    std::erase_if(dismissals, [&](const Dismissal& earlier) { return is_of(earlier, finding); });
+    const std::vector<Dismissal> earlier = stored_dismissals(project);
+    std::vector<Dismissal> dismissals;
+    for (const auto& [dismissal, hidden] : judged(search, earlier).dismissed)
+        if (!hidden || hidden->id() != finding.id()) dismissals.push_back(dismissal);
     dismissals.push_back({.kind = finding.kind,
                           .place = finding.place,
                           .size = finding.size,
@@ -110,13 +141,19 @@ void dismiss(const std::filesystem::path& project, const Finding& finding,
           {.subject = "finding " + finding.id(), .facts = Json{{"dismissed", reason}}.dump()});
 }
 
-bool restore(const std::filesystem::path& project, const Finding& finding) {
+std::optional<Dismissal> restore(const std::filesystem::path& project, const std::string& id) {
+    const FindingId wanted = finding_id_from(id);
     std::vector<Dismissal> dismissals = stored_dismissals(project);
-    if (std::erase_if(dismissals, [&](const Dismissal& one) { return is_of(one, finding); }) == 0)
-        return false;
+    const auto distance = [&](const Dismissal& one) {
+        return wanted.distance(one.kind, one.place, one.size);
+    };
+    const auto nearest = std::ranges::min_element(dismissals, {}, distance);
+    if (nearest == dismissals.end() || !std::isfinite(distance(*nearest))) return std::nullopt;
+    Dismissal restored = std::move(*nearest);
+    dismissals.erase(nearest);
     store(project, dismissals,
-          {.subject = "finding " + finding.id(), .facts = Json{{"restored", true}}.dump()});
-    return true;
+          {.subject = "finding " + restored.id(), .facts = Json{{"restored", true}}.dump()});
+    return restored;
 }
 
 }  // namespace vesselbench

@@ -1,6 +1,7 @@
 #include "workbench/findings/find_findings.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -18,11 +19,13 @@ using Json = nlohmann::ordered_json;
 
 /// A damaged surface is what some detectors refuse, and what others find.
 std::vector<Finding> found_by(const Detector& detector, FindingSubject& subject,
-                              const Progress& progress) {
+                              std::vector<NotSearched>& not_searched, const Progress& progress) {
     try {
         return detector.find(subject, progress);
-    } catch (const AlgorithmFailure&) {
-    } catch (const InvalidInput&) {
+    } catch (const AlgorithmFailure& failure) {
+        not_searched.push_back({detector.kind, failure.what()});
+    } catch (const InvalidInput& failure) {
+        not_searched.push_back({detector.kind, failure.what()});
     }
     return {};
 }
@@ -54,25 +57,41 @@ Json dismissal_json(const Dismissal& dismissal) {
 
 }  // namespace
 
-std::vector<Finding> find_findings(const Scene& scene, const Progress& progress) {
+FindingSearch find_findings(const Scene& scene, const Progress& progress) {
     static_cast<void>(surface_of(scene));
     FindingSubject subject(scene);
-    std::vector<Finding> findings;
+    FindingSearch search;
     const std::span<const Detector> all = detectors();
     for (std::size_t i = 0; i < all.size(); ++i) {
         const auto share = [&](std::size_t k) {
             return static_cast<double>(k) / static_cast<double>(all.size());
         };
         progress.report(share(i), "looking for artefacts");
-        for (Finding& finding :
-             found_by(all[i], subject, progress.part(share(i), share(i + 1)).silent())) {
-            if (all[i].follows && is_explained(finding, findings)) continue;
+        for (Finding& finding : found_by(all[i], subject, search.not_searched,
+                                         progress.part(share(i), share(i + 1)).silent())) {
+            if (all[i].follows && is_explained(finding, search.findings)) continue;
             finding.evidence.place = finding.place;
-            findings.push_back(std::move(finding));
+            search.findings.push_back(std::move(finding));
         }
     }
-    std::ranges::stable_sort(findings, std::greater{}, &Finding::certainty);
-    return findings;
+    std::ranges::stable_sort(search.findings, std::greater{}, &Finding::certainty);
+    return search;
+}
+
+std::vector<std::string> not_searched_lines(const std::vector<NotSearched>& not_searched) {
+    std::vector<std::pair<std::string, std::string>> titles;  // by reason
+    for (const auto& [kind, reason] : not_searched) {
+        const auto known =
+            std::ranges::find(titles, reason, &std::pair<std::string, std::string>::first);
+        if (known == titles.end())
+            titles.emplace_back(reason, title_of_kind(kind));
+        else
+            known->second += ", " + title_of_kind(kind);
+    }
+    std::vector<std::string> lines;
+    for (const auto& [reason, kinds] : titles)
+        lines.push_back("not looked for: " + kinds + ": " + reason);
+    return lines;
 }
 
 Json finding_json(const Finding& finding) {
@@ -88,13 +107,16 @@ Json finding_json(const Finding& finding) {
 }
 
 Json findings_json(const JudgedFindings& findings) {
-    Json json = {{"findings", Json::array()}, {"dismissed", Json::array()}};
+    Json json = {
+        {"findings", Json::array()}, {"dismissed", Json::array()}, {"not_searched", Json::array()}};
     for (const Finding& finding : findings.open) json["findings"].push_back(finding_json(finding));
     for (const DismissedFinding& dismissed : findings.dismissed) {
         json["dismissed"].push_back(dismissal_json(dismissed.dismissal));
         json["dismissed"].back()["id"] =
             dismissed.finding ? Json(dismissed.finding->id()) : Json(nullptr);
     }
+    for (const auto& [kind, reason] : findings.not_searched)
+        json["not_searched"].push_back({{"kind", kind}, {"reason", reason}});
     return json;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
@@ -12,15 +13,20 @@
 namespace vesselbench {
 
 /// All detectors on a scene's surface, the most certain findings first, of equals in the order of
-/// the registry. Nothing is changed. What a detector cannot find on a damaged surface is not found.
-/// \throw AlgorithmFailure if there is no surface; Cancelled
-[[nodiscard]] std::vector<Finding> find_findings(const Scene& scene, const Progress& progress = {});
+/// the registry. Nothing is changed. A kind that a damaged surface does not let be looked for is
+/// said to be not searched. \throw AlgorithmFailure if there is no surface; Cancelled
+[[nodiscard]] FindingSearch find_findings(const Scene& scene, const Progress& progress = {});
+
+/// "not looked for: Bump, Dent: the surface ...", a line for each reason.
+[[nodiscard]] std::vector<std::string> not_searched_lines(
+    const std::vector<NotSearched>& not_searched);
 
 /// A finding as JSON: id, kind, title, certainty, place_mm, size_mm, evidence, and operation with
 /// its arguments (null: none treats it).
 [[nodiscard]] nlohmann::ordered_json finding_json(const Finding& finding);
 
-/// Findings of a model and what was dismissed: {"findings", "dismissed"}.
+/// Findings of a model, what was dismissed and what was not looked for: {"findings", "dismissed",
+/// "not_searched"}.
 [[nodiscard]] nlohmann::ordered_json findings_json(const JudgedFindings& findings);
 
 }  // namespace vesselbench

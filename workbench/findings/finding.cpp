@@ -1,9 +1,9 @@
 #include "workbench/findings/finding.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string_view>
 
@@ -18,15 +18,10 @@ namespace {
 /// Coordinates of an id are rounded [mm].
 constexpr double kRounding = 0.002;
 
-struct ParsedId {
-    std::string_view kind;
-    Vec3 place = Vec3::Zero();
-};
-
-std::optional<ParsedId> parsed(std::string_view id) {
+std::optional<FindingId> parsed(std::string_view id) {
     const std::size_t at = id.find('@');
     if (at == std::string_view::npos || at == 0) return std::nullopt;
-    ParsedId found{.kind = id.substr(0, at)};
+    FindingId found{.kind = std::string(id.substr(0, at))};
     std::string_view rest = id.substr(at + 1);
     for (int k = 0; k < 3; ++k) {
         double value = 0.0;
@@ -52,17 +47,30 @@ const Remedy* Finding::treatment() const {
     return evidence.remedies.empty() ? nullptr : &evidence.remedies.front();
 }
 
-const Finding* finding_of_id(std::span<const Finding> findings, const std::string& id) {
-    const auto wanted = parsed(id);
-    if (!wanted)
+double FindingId::distance(const std::string& of_kind, const Vec3& from, double size) const {
+    const double away = (from - place).norm();
+    return of_kind == kind && away <= 0.5 * size + kRounding
+               ? away
+               : std::numeric_limits<double>::infinity();
+}
+
+FindingId finding_id_from(const std::string& id) {
+    auto found = parsed(id);
+    if (!found)
         throw UsageError("'" + shortened(printable(id)) +
                          "' is no finding: give its id as listed, such as bump@12.3,4.5,6.7");
+    return *std::move(found);
+}
+
+const Finding* finding_of_id(std::span<const Finding> findings, const std::string& id) {
+    const FindingId wanted = finding_id_from(id);
     const Finding* nearest = nullptr;
+    double least = std::numeric_limits<double>::infinity();
     for (const Finding& finding : findings) {
-        const double distance = (finding.place - wanted->place).norm();
-        if (finding.kind != wanted->kind || distance > 0.5 * finding.size + kRounding) continue;
-        if (nearest == nullptr || distance < (nearest->place - wanted->place).norm())
-            nearest = &finding;
+        const double distance = wanted.distance(finding.kind, finding.place, finding.size);
+        if (distance >= least) continue;
+        least = distance;
+        nearest = &finding;
     }
     return nearest;
 }

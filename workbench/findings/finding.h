@@ -29,11 +29,35 @@ struct Finding {
     [[nodiscard]] const Remedy* treatment() const;
 };
 
+/// What an id says.
+struct FindingId {
+    std::string kind;
+    Vec3 place = Vec3::Zero();  ///< [mm], rounded
+
+    /// How far a place is from the id's [mm]; infinite: the id is of another kind, or the place is
+    /// farther than half of this size.
+    [[nodiscard]] double distance(const std::string& of_kind, const Vec3& from, double size) const;
+};
+
+/// \throw UsageError if it is no id
+[[nodiscard]] FindingId finding_id_from(const std::string& id);
+
 /// The finding that an id means: of its kind, and no farther from its place than half the finding's
 /// size; the nearest of several. Null: none of them.
 /// \throw UsageError if it is no id
 [[nodiscard]] const Finding* finding_of_id(std::span<const Finding> findings,
                                            const std::string& id);
+
+/// A kind that was not looked for.
+struct NotSearched {
+    std::string kind;
+    std::string reason;  ///< in words
+};
+
+struct FindingSearch {
+    std::vector<Finding> findings;          ///< the most certain first
+    std::vector<NotSearched> not_searched;  ///< in the order of the registry
+};
 
 /// A logistic curve of what was measured: 0.5 at `even`, 0.8 at `sure`, never nearer to 0 or 1 than
 /// 0.02. `sure` may be the smaller one.

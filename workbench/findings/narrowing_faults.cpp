@@ -23,14 +23,13 @@ const char* words_of(ImageVerdict verdict) {
 }  // namespace
 
 std::vector<Finding> find_narrow_vessels(FindingSubject& subject, const Progress& progress) {
-    const auto* lines = subject.lines(progress);
-    if (lines == nullptr) return {};
+    const auto& lines = subject.lines(progress);
     const Scene& scene = subject.scene();
     NarrowingParameters parameters;
     if (scene.sampling) parameters.resolution = scene.sampling->spacing.maxCoeff();
     std::vector<Finding> findings;
     for (const Narrowing& narrow :
-         find_narrowings(subject.surface(), *lines->graph, parameters, progress)) {
+         find_narrowings(subject.surface(), *lines.graph, parameters, progress)) {
         Diagnostic evidence{
             .code = "found-narrowing",
             .figures = {{"found_mm", narrow.found_radius},
@@ -38,7 +37,7 @@ std::vector<Finding> find_narrow_vessels(FindingSubject& subject, const Progress
                         {"length_mm", narrow.to - narrow.from}},
             .remedies = {{.operation = "correct-narrowing",
                           .arguments = {{"at", coordinates_argument(narrow.place)}}}}};
-        const auto rings = wall_rings(subject.surface(), *lines->graph, narrow.branch, progress);
+        const auto rings = wall_rings(subject.surface(), *lines.graph, narrow.branch, progress);
         if (const auto image = narrowing_evidence(scene, rings, narrow))
             evidence.words = {{"image", words_of(image->verdict)}};
         findings.push_back({.kind = "narrowing",

@@ -20,6 +20,10 @@ Step treatment_step(const Operation& operation, const std::vector<LogEntry>& log
     return behind != allowed.end() ? *behind : allowed.back();
 }
 
+std::string treatment_note(const Finding& finding) {
+    return title_of_kind(finding.kind) + ": " + worded(finding.evidence);
+}
+
 LogEntry accept(Session& session, const Finding& finding, const std::string& variant,
                 const Progress& progress) {
     const Remedy* treatment = finding.treatment();
@@ -33,7 +37,7 @@ LogEntry accept(Session& session, const Finding& finding, const std::string& var
     return session.apply(arguments_from_texts(operation, texts),
                          {.step = treatment_step(operation, session.log(variant)),
                           .variant = variant,
-                          .note = title_of_kind(finding.kind) + ": " + worded(finding.evidence)},
+                          .note = treatment_note(finding)},
                          progress);
 }
 

@@ -13,6 +13,9 @@ namespace vesselbench {
 /// are; else the last one allowed.
 [[nodiscard]] Step treatment_step(const Operation& operation, const std::vector<LogEntry>& log);
 
+/// The note of an edit that treats a finding: what was found.
+[[nodiscard]] std::string treatment_note(const Finding& finding);
+
 /// Runs the operation that treats a finding, as an edit whose note says what was found.
 /// \throw DiagnosedFailure if none treats it; what Session::apply() throws
 LogEntry accept(Session& session, const Finding& finding, const std::string& variant,

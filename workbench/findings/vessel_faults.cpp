@@ -77,12 +77,12 @@ std::vector<Finding> find_handles(FindingSubject& subject, const Progress& progr
     const Surface& surface = subject.surface();
     const int genus = connectivity(*surface.topology).genus.value_or(0);
     if (genus <= 0 || genus > kMostHandles) return {};
-    const auto* lines = subject.lines(progress);
+    const bool has_lines = subject.has_lines(progress);
     std::vector<Finding> findings;
     for (const SurfaceHandle& handle : handles_of(surface, progress)) {
         Diagnostic evidence = handle_warning(handle);
         const bool artefact = evidence.code == "handle-artefact";
-        const double neck = lines == nullptr ? kEven : neck_length(*lines->graph, handle);
+        const double neck = has_lines ? neck_length(*subject.lines(progress).graph, handle) : kEven;
         findings.push_back({.kind = "handle",
                             .place = handle.centre,
                             .size = handle.width,
@@ -141,11 +141,10 @@ std::vector<Finding> find_stubs(FindingSubject& subject, const Progress& progres
     constexpr double kEven = 2.2, kSure = 1.7;            // length over diameter
     constexpr double kEvenRise = 0.35, kSureRise = 0.6;   // of one without a line [radii]
     constexpr double kEvenWidth = 2.0, kSureWidth = 3.0;  // of one without a line [mean edges]
-    const auto* lines = subject.lines(progress);
-    if (lines == nullptr) return {};
+    const auto& lines = subject.lines(progress);
     std::vector<Finding> findings;
     for (const ShortBranch& branch :
-         short_branches(subject.surface(), *lines->graph, *lines->stubs, progress)) {
+         short_branches(subject.surface(), *lines.graph, *lines.stubs, progress)) {
         const double slender = certainty_of(branch.length / branch.diameter, kEven, kSure);
         const double bulge =
             std::min(certainty_of(2.0 * branch.length / branch.parent, kEvenRise, kSureRise),
@@ -193,9 +192,8 @@ std::vector<Finding> find_oblique_ends(FindingSubject& subject, const Progress& 
 
 std::vector<Finding> find_frayed_ends(FindingSubject& subject, const Progress& progress) {
     constexpr double kEven = 2.0, kSure = 3.0;  // threads
-    const auto* lines = subject.lines(progress);
-    if (lines == nullptr) return {};
-    const LinesWithoutFrays whole = without_frays(subject.surface(), *lines->graph, *lines->stubs);
+    const auto& lines = subject.lines(progress);
+    const LinesWithoutFrays whole = without_frays(subject.surface(), *lines.graph, *lines.stubs);
     std::vector<Finding> findings;
     for (const FrayedTrunk& trunk : whole.trunks) {
         const Vec3 tip = whole.graph.nodes[trunk.tip].position;

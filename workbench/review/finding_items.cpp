@@ -29,9 +29,9 @@ std::vector<Finding> open_findings(Session& session, const std::vector<LogEntry>
     if (last == nullptr) return {};
     const Scene scene = session.result_scene(last->result->id, progress.part(0.0, 0.1));
     if (!scene.surface || scene.surface->empty()) return {};
-    std::vector<Finding> found = find_findings(scene, progress.part(0.1, 1.0));
+    FindingSearch found = find_findings(scene, progress.part(0.1, 1.0));
     const ProjectFile& project = session.project();
-    if (project.name().empty()) return found;
+    if (project.name().empty()) return found.findings;
     return judged(std::move(found), stored_dismissals(project.folder() / project.name())).open;
 }
 

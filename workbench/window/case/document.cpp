@@ -350,9 +350,10 @@ void Document::tell_run(const Snapshot& before) {
     tell(make_message(MessageKind::Success, "Ran " + counted(run.size(), "pending edit")));
 }
 
-void Document::apply(const std::string& operation, Arguments given, Step step) {
+void Document::apply(const std::string& operation, Arguments given, Step step, std::string note) {
     if (!begin_request(RequestKind::Edit)) return;
-    watch(runner_->apply(operation, std::move(given), {.step = step, .variant = variant_}),
+    watch(runner_->apply(operation, std::move(given),
+                         {.step = step, .variant = variant_, .note = std::move(note)}),
           edit_label(operation), [this](const LogEntry& entry) { enter(entry); });
 }
 

@@ -138,7 +138,7 @@ public:
 
     [[nodiscard]] bool can(RequestKind kind) const { return why_not(kind).empty(); }
 
-    void apply(const std::string& operation, Arguments given, Step step);
+    void apply(const std::string& operation, Arguments given, Step step, std::string note = {});
     void preview(const std::string& operation, Arguments given, Step step);
     void change(EditId edit, Arguments given);
     void preview_change(EditId edit, Arguments given);

@@ -37,8 +37,10 @@ export const newReader = ({ browser, folder }) => browser.createBrowserContext(
 export async function savedFile({ folder }, aside) {
   const downloads = join(folder, 'downloads');
   const whole = () => { const [file, more] = readdirSync(downloads); return file && !more && statSync(join(downloads, file)).size > 0 && /\.json$/.test(file) ? file : null; };
-  for (let i = 0; i < 200 && !whole(); ++i) await new Promise((resolve) => setTimeout(resolve, 50));
-  const file = whole(), path = join(folder, aside);
+  let file = whole();
+  for (let i = 0; i < 1200 && !file; ++i, file = whole()) await new Promise((resolve) => setTimeout(resolve, 50));
+  if (!file) throw new Error(`the page saved no file within a minute: ${readdirSync(downloads)}`);
+  const path = join(folder, aside);
   renameSync(join(downloads, file), path);
   return { path, name: file };
 }

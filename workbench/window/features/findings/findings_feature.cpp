@@ -40,7 +40,7 @@ void FindingsFeature::want() {
 }
 
 void FindingsFeature::judge() {
-    findings_ = judged(found_.findings, found_.dismissals);
+    findings_ = judged(found_.search, found_.dismissals);
     asked_.reset();
     reason.clear();
     if (at_ && *at_ >= findings_->open.size()) at_.reset();
@@ -122,7 +122,7 @@ void FindingsFeature::accept(std::size_t index) {
     GivenArguments given(operation);
     for (const auto& [name, value] : found->treatment()->arguments) given.set(name, value);
     core_.leave_form();
-    core_.document.apply(operation.name, given, step_for(operation.name));
+    core_.document.apply(operation.name, given, step_for(operation.name), treatment_note(*found));
 }
 
 void FindingsFeature::change(std::size_t index) {
@@ -142,11 +142,11 @@ void FindingsFeature::ask_reason(std::size_t index) {
 void FindingsFeature::dismiss_asked() {
     const Finding* found = asked_ ? finding(*asked_) : nullptr;
     if (found == nullptr || reason.find_first_not_of(" \t\n") == std::string::npos) return;
-    storing_.start(
-        [project = core_.document.project(), dismissed = *found, words = reason](const Progress&) {
-            dismiss(project, dismissed, words);
-            return stored_dismissals(project);
-        });
+    storing_.start([project = core_.document.project(), search = found_.search, dismissed = *found,
+                    words = reason](const Progress&) {
+        dismiss(project, search, dismissed, words);
+        return stored_dismissals(project);
+    });
 }
 
 void FindingsFeature::keys(PanelContext& context) {

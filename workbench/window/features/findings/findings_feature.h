@@ -70,7 +70,7 @@ public:
 
 private:
     struct Found {
-        std::vector<Finding> findings;
+        FindingSearch search;
         std::vector<Dismissal> dismissals;
     };
 

@@ -6,6 +6,7 @@
 #include "geometry/kernel/wording.h"
 #include "workbench/case/diagnostic_words.h"
 #include "workbench/findings/detectors.h"
+#include "workbench/findings/find_findings.h"
 #include "workbench/window/case/readable.h"
 #include "workbench/window/core/core.h"
 #include "workbench/window/features/findings/findings_feature.h"
@@ -110,6 +111,8 @@ void draw_findings(PanelContext& c) {
         wrapped(c.ui, "Nothing on the model looks wrong.", c.ui.theme.muted);
     for (std::size_t i = 0; i < feature.findings()->open.size(); ++i) draw_finding(c, feature, i);
     draw_dismissed(c, *feature.findings());
+    for (const std::string& line : not_searched_lines(feature.findings()->not_searched))
+        wrapped(c.ui, readable_sentence(line), c.ui.theme.warning);
 }
 
 }  // namespace vesselbench
