@@ -38,11 +38,7 @@ install(FILES packaging/vesselbench.svg DESTINATION ${CMAKE_INSTALL_DATADIR}/ico
 install(FILES packaging/vesselbench.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/mime/packages)
 install(FILES packaging/copyright README.md ${made}/changelog.gz ${made}/CHANGELOG.md.gz ${made}/NOTICES.gz ${made}/LICENSE.gz
   DESTINATION ${docs})
-foreach(page IN ITEMS ends findings gpu guide measures operations reliability repairs review verdicts-schema)
-  install(FILES docs/${page}.md DESTINATION ${docs}/docs)
-endforeach()
-install(DIRECTORY docs/pictures DESTINATION ${docs}/docs)
-install(FILES docs/aneurysm.png DESTINATION ${docs}/docs)
+install(DIRECTORY docs DESTINATION ${docs})
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME vesselbench)
