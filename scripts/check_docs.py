@@ -292,6 +292,17 @@ def network_faults(site):
                         yield f"{os.path.relpath(os.path.join(folder, name), site)}: {found}"
 
 
+def asset_faults(site):
+    """What a page loads from the site has to be there: a theme may lack parts."""
+    for folder, _, names in os.walk(site):
+        for name in names:
+            if name.endswith(".html") and name != "404.html":
+                with open(os.path.join(folder, name)) as file:
+                    for asset in re.findall(r'<(?:link|script|img)[^>]*?(?:href|src)="([^":?]+)', file.read()):
+                        if not os.path.exists(os.path.join(folder, asset)):
+                            yield f"{os.path.relpath(os.path.join(folder, name), site)}: there is no {asset}"
+
+
 def search_faults(site):
     """Every question's page has to be among the first three pages found."""
     done = subprocess.run(["node", "-e", SEARCH, site, json.dumps(list(QUESTIONS))], capture_output=True, text=True, check=True)
@@ -311,7 +322,7 @@ def site_build_faults():
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         if done.returncode != 0:
             return [done.stdout.strip()]
-        return [*network_faults(site), *search_faults(site)]
+        return [*network_faults(site), *asset_faults(site), *search_faults(site)]
 
 
 def faults_of(part, program, chosen):
