@@ -530,7 +530,7 @@ the surface, so that beta_min, searched, ends near 1. Of Laplace+HC it searches 
 
 This was chosen on the shapes looked at and on one draw of the others (20 masks); the masks held back are of seeds drawn after the
 choice, all of them reported. Of an earlier draw of 24, of seeds from 61000 and 62000 on, 17 were nearer than raw and recipe;
-these count as looked at since. The suggestion is {counts}. The second table is of steps of 5 iterations.
+these count as looked at. The suggestion is {counts}. The second table is of steps of 5 iterations.
 
 """
 MASK_FORMS = [("default", 0.5), ("absolute", 0.5), ("halved", 0.5), ("default", 0.8)]
