@@ -254,6 +254,7 @@ def run(program, chosen):
 QUESTIONS = {  # what users type into the search, and the page that answers it
     "inlet": "user/ends.html",
     "how do I choose the inlet": "user/ends.html",
+    "install": "user/install.html",
     "print": "user/printing.html",
     "staircases": "user/smoothing.html",
     "DICOM": "user/formats.html",
