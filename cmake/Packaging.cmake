@@ -39,14 +39,10 @@ install(FILES packaging/vesselbench.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}
 install(FILES packaging/vesselbench.svg DESTINATION ${CMAKE_INSTALL_DATADIR}/icons/hicolor/scalable/apps)
 install(FILES packaging/vesselbench.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/mime/packages)
 install(FILES packaging/vesselbench.metainfo.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/metainfo)
-install(FILES packaging/copyright README.md ${made}/changelog.gz ${made}/CHANGELOG.md.gz ${made}/NOTICES.gz ${made}/LICENSE.gz
+install(FILES packaging/copyright README.md CONTRIBUTING.md SECURITY.md ${made}/changelog.gz ${made}/CHANGELOG.md.gz ${made}/NOTICES.gz ${made}/LICENSE.gz
   ${made}/vesselbench.spdx.json.gz
   DESTINATION ${docs})
-foreach(page IN ITEMS ends findings gpu guide measures operations reliability repairs review verdicts-schema)
-  install(FILES docs/${page}.md DESTINATION ${docs}/docs)
-endforeach()
-install(DIRECTORY docs/pictures DESTINATION ${docs}/docs)
-install(FILES docs/aneurysm.png DESTINATION ${docs}/docs)
+install(DIRECTORY docs DESTINATION ${docs})
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME vesselbench)

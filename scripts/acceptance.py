@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """Prepares the bundled case and every surface and image of ../shared/data for flow simulation and for printing, checks
-the products itself and with OpenFOAM and PrusaSlicer, and writes the table docs/acceptance.md, with the forest's
-results from docs/forest.md beside it. A run of every case ends with one row of every page of figures measured again
+the products itself and with OpenFOAM and PrusaSlicer, and writes the table docs/science/acceptance.md, with the forest's
+results from docs/science/forest.md beside it. A run of every case ends with one row of every page of figures measured again
 (`scripts/experiments.py --repeat` and so on), so that no page goes stale unseen, with the review page's tests in Firefox
 (`scripts/firefox`), and with the package in a bare Debian 12 (`scripts/try_package`).
 
   scripts/acceptance.py [--only NAME]... [--goal cfd|rp] [--out FOLDER] [--no-table] [--quick] [--no-solve]
-  scripts/acceptance.py --forest       only renews the forest's part of docs/acceptance.md
+  scripts/acceptance.py --forest       only renews the forest's part of docs/science/acceptance.md
   scripts/acceptance.py --rows         only measures the pages' rows again
 
 --quick runs the bundled case and three small ones, and solves the bundled case's flow; without it, every case is run and
@@ -398,11 +398,11 @@ FOREST_TITLE = "## The forest\n"
 
 
 def forest_results():
-    """The section "Results" of docs/forest.md, without its subsections."""
-    with open(os.path.join(ROOT, "docs", "forest.md")) as file:
+    """The section "Results" of docs/science/forest.md, without its subsections."""
+    with open(os.path.join(ROOT, "docs", "science", "forest.md")) as file:
         text = file.read()
     results = text.split("\n## Results\n", 1)[1].split("\n## ", 1)[0].split("\n### ", 1)[0]
-    return (FOREST_TITLE + "\nRandom vessel trees whose truth is known, from the results in docs/forest.md, "
+    return (FOREST_TITLE + "\nRandom vessel trees whose truth is known, from the results in [forest.md](forest.md), "
             "which says what is in them and how they are judged.\n\n" + results.strip() + "\n")
 
 
@@ -461,7 +461,7 @@ def main():
     parser.add_argument("--rows", action="store_true")
     options = parser.parse_args()
     if options.forest:
-        return renew_forest(os.path.join(ROOT, "docs", "acceptance.md"))
+        return renew_forest(os.path.join(ROOT, "docs", "science", "acceptance.md"))
     if options.rows:
         return worst_code(REPEATS)
     revision = page_rows.revision()  # of the files as they are now
@@ -483,7 +483,7 @@ def main():
         print(f"tilt of {len(tilts)} openings: median {tilts[len(tilts) // 2]:.2f}, worst {tilts[-1]:.2f} deg")
     whole = not (options.quick or options.only or options.goal)
     if whole and not options.no_table:
-        write_table(rows, os.path.join(ROOT, "docs", "acceptance.md"), revision)
+        write_table(rows, os.path.join(ROOT, "docs", "science", "acceptance.md"), revision)
     repeated = worst_code([*REPEATS, "firefox", "try_package"]) if whole else 0
     if repeated == 1 or tube or any(r["must"] and (r["code"] != 0 or r["failures"]) for r in rows):
         return 1

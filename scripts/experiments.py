@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Repeats the experiments of the thesis' chapter 5 with the program's own commands, checks their limits, and
-writes docs/experiments.md with our figures beside the thesis's.
+writes docs/science/experiments.md with our figures beside the thesis's.
 
   scripts/experiments.py [--only NAME]... [--out FOLDER] [--quick] [--no-page] [--assemble]
   scripts/experiments.py --repeat [--out FOLDER]
@@ -943,7 +943,7 @@ def full_parts(options, names):
     return parts
 
 
-PAGE = os.path.join(ROOT, "docs", "experiments.md")
+PAGE = os.path.join(ROOT, "docs", "science", "experiments.md")
 LAST_HEADING = "\n## What does not come out\n\n"
 # How the lines of the last section begin, by experiment.
 OWN_LINES = {"sphere": r"5\.5 (?!flow)", "distance": r"5\.[12]:", "aorta": r"5\.4 aorta", "real": "(aorta|liver|carotid),",
@@ -986,7 +986,7 @@ NOT_OUT = [
     "5.5: the unfiltered row's volume of -0.01 %, and anything at tau_theta 0.7: see the text there.",
     "5.3 and 5.4: with most filters the Hausdorff distance is larger with staircase awareness than without; see the tables.",
     "5.8: velocities and wall shear stress are not here: `scripts/experiments_flow.py` solves the flow "
-    "(docs/experiments-flow.md).",
+    "([experiments-flow.md](experiments-flow.md)).",
 ]
 
 
@@ -1027,7 +1027,7 @@ def main():
         sys.exit(0 if repeat(options) else 1)
     os.makedirs(options.out, exist_ok=True)
     whole = not (options.quick or options.no_page or options.only)
-    options.pictures = options.out if options.quick or options.no_page else os.path.join(ROOT, "docs", "experiments")
+    options.pictures = options.out if options.quick or options.no_page else os.path.join(ROOT, "docs", "science", "experiments")
     os.makedirs(options.pictures, exist_ok=True)
     program_key()  # of the files as they are now, as the revision is
     options.revision = page_rows.revision()

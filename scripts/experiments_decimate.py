@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Shows the gain of staircase- and distance-weighted decimation (thesis 5.6, 7.2) from the reports of `vesselbench apply P
 decimate`, which include an unweighted run to the same number of triangles, checks their limits, and writes
-docs/experiments-decimate.md.
+docs/science/experiments-decimate.md.
 
   scripts/experiments_decimate.py [--out FOLDER] [--no-page] [--repeat]
 
@@ -155,7 +155,7 @@ def main():
     else:
         print("skipped: no ../shared/data")
     if not options.no_page:
-        with open(os.path.join(ROOT, "docs", "experiments-decimate.md"), "w") as file:
+        with open(os.path.join(ROOT, "docs", "science", "experiments-decimate.md"), "w") as file:
             file.write(f"# Context-aware decimation\n\nWritten by `scripts/experiments_decimate.py` with the program of "
                        f"{revision}; "
                        "every row is a report of `vesselbench apply P decimate ...`, "

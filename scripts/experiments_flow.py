@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Solves the flow in the bundled aneurysm's exact, raw and smoothed surfaces, as thesis Table 5.8, and writes
-docs/experiments-flow.md.
+docs/science/experiments-flow.md.
 
   scripts/experiments_flow.py [--seeds N] [--edge MM] [--out FOLDER] [--no-page] [--repeat]
 
@@ -366,7 +366,7 @@ def main():
     page = page_of(options, revision, [of_seed(options, seed) for seed in range(1, options.seeds + 1)])
     print(page)
     if not options.no_page:
-        with open(os.path.join(ROOT, "docs", "experiments-flow.md"), "w") as file:
+        with open(os.path.join(ROOT, "docs", "science", "experiments-flow.md"), "w") as file:
             file.write(page)
 
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Repeats the experiments of the thesis' chapter 6 on parameter suggestions (Table 6.2, Fig. 6.15b, the pattern search),
-rates the scores on surfaces whose true shape is known, checks the limits, and writes docs/experiments-suggestions.md.
+rates the scores on surfaces whose true shape is known, checks the limits, and writes docs/science/experiments-suggestions.md.
 
   scripts/experiments_suggest.py [--only NAME]... [--out FOLDER] [--no-page] [--repeat]
 
@@ -530,7 +530,7 @@ the surface, so that beta_min, searched, ends near 1. Of Laplace+HC it searches 
 
 This was chosen on the shapes looked at and on one draw of the others (20 masks); the masks held back are of seeds drawn after the
 choice, all of them reported. Of an earlier draw of 24, of seeds from 61000 and 62000 on, 17 were nearer than raw and recipe;
-these count as looked at since. The suggestion is {counts}. The second table is of steps of 5 iterations.
+these count as looked at. The suggestion is {counts}. The second table is of steps of 5 iterations.
 
 """
 MASK_FORMS = [("default", 0.5), ("absolute", 0.5), ("halved", 0.5), ("default", 0.8)]
@@ -637,7 +637,7 @@ MASKS_NOT_OUT = """
   intensities, whose distance from the reference hardly depends on the smoothing and is least after about 5 iterations, while its
   noise goes on flattening at staircases as elsewhere: after 50 iterations the integral of |H| is 0.42 of the raw surface's with
   the smoothing weights as weights, 0.50 with the rest of them. No form of the score that was tried stops earlier
-  (docs/decisions.md). `smooth staircase=true`, which keeps the rest, is nearest.
+  ([decisions.md](../dev/decisions.md)). `smooth staircase=true`, which keeps the rest, is nearest.
 """
 AORTA_WORDS = """
 A real aorta: `vmtk_aorta.mha` inside its level set, as Tables 5.3 and 5.4 extract it, with every 2nd or 3rd slice of 1.5 mm kept;
@@ -733,7 +733,7 @@ def printed(section, name, revision):
 
 
 def write_page(options, sections, revision):
-    path = os.path.join(ROOT, "docs", "experiments-suggestions.md")
+    path = os.path.join(ROOT, "docs", "science", "experiments-suggestions.md")
     text = ("# Parameter suggestions: the thesis's chapter 6\n\nWritten by `scripts/experiments_suggest.py` with the program of "
             f"{revision}; every figure comes from `vesselbench suggest`.\n\n" + "\n".join(sections))
     if options.only:

@@ -10,9 +10,8 @@ Oblique and flat tubes, helices, furcations (their thinner branch) and vessels w
 3 voxels of the coarsest axis; slices 1 to 3 times as thick as the voxels of 0.4 mm; blur of 0.5 and 1 voxel along each axis;
 noise of 0 and 5 % of the contrast. The error of the volume is that of the mean squared distance of the wall from the vessel's
 axis (of a sac, the mean cube), away from ends and furcations. --fall: the contrast varies over the image by that share. Without
---only, --slices,
---radii, --fall and --no-page it writes docs/experiments-thin.md. Exit code 1 if an error with local levels is above 3 % for radii
-of 3 voxels or more, or above 8 % for 2. Needs Debian's python3-numpy, hence /usr/bin/python3.
+--only, --slices, --radii, --fall and --no-page it writes docs/science/experiments-thin.md. Exit code 1 if an error with local
+levels is above 3 % for radii of 3 voxels or more, or above 8 % for 2. Needs Debian's python3-numpy, hence /usr/bin/python3.
 
 --repeat measures the row of the tube with a radius of 2 voxels and slices of 1 again, in a folder of its own, and compares it
 with the page's, within 5 % of each error or 0.3 points (their last digit is 0.1). Exit code 1 if they differ.
@@ -170,7 +169,7 @@ def row_line(key, errors):
 
 
 def page(table, revision):
-    """docs/experiments-thin.md of {key: errors}, as row_line takes them."""
+    """docs/science/experiments-thin.md of {key: errors}, as row_line takes them."""
     lines = ["# Thin vessels: one threshold and local levels", "",
              f"Written by `scripts/experiments_thin.py` with the program of {revision}:",
              "the error of a vessel's volume in phantoms of known radius,",
@@ -188,7 +187,7 @@ def page(table, revision):
                   "follow the blurred shape",
               "keep the volume. Flat vessels under thick, blurred slices keep the largest error, since their sections are no "
               "circles in the image."]
-    with open(os.path.join(ROOT, "docs", "experiments-thin.md"), "w") as file:
+    with open(os.path.join(ROOT, "docs", "science", "experiments-thin.md"), "w") as file:
         file.write("\n".join(lines) + "\n")
 
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Compares prepared surfaces with exact ones, beside two pipelines by hand on the same images, and writes
-docs/experiments-truth.md.
+docs/science/experiments-truth.md.
 
   scripts/experiments_truth.py [--only PHANTOM]... [--slices N]... [--out FOLDER] [--quick] [--no-page] [--assemble] [--jobs N]
                               [--necks]
@@ -280,7 +280,7 @@ the balls that the phantom's file gives for them: mean and 95th percentile of th
 the wall's mean distance from the exact centerlines within sections; the same of the nearest wall, which roughness alone makes
 negative; all in voxels (in the slice's plane). Volume of the sac beyond the neck's plane and area of the neck, relative to the
 exact surface's. The phantoms (tests/experiments/truth) were fixed before the first run; the clearance of masks' voxels and the
-way to the threshold of intensities were chosen on them later (docs/decisions.md).
+way to the threshold of intensities were chosen on them later ([decisions.md](../dev/decisions.md)).
 
 """
 
@@ -340,7 +340,7 @@ def measure(options, function, cases, line):
 
 def write_page(out, revision):
     results, necks = all_figures(out), all_necks(out)
-    with open(os.path.join(ROOT, "docs", "experiments-truth.md"), "w") as page:
+    with open(os.path.join(ROOT, "docs", "science", "experiments-truth.md"), "w") as page:
         page.write(WORDS % revision + page_of(results) + "\n" + verdicts(results) + at_ours_part(results))
         if necks:
             page.write(neck_part(necks))

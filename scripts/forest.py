@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Grows random vessel trees with known truth, prepares them, and judges the products by the truth (docs/forest.md).
+"""Grows random vessel trees with known truth, prepares them, and judges the products by the truth (docs/science/forest.md).
 
   scripts/forest.py [--seeds A-B|A,B,...] [--goal cfd|rp|both] [--out FOLDER] [--jobs N] [--timeout S] [--coarse]
                  [--at-least N] [--at-most-wrong N] [--keep] [--table FILE] [--resume]

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Prepares real surfaces of ../shared/data and variants of them whose openings have to be the same: turned, mirrored, in
 other units, with triangles shuffled or turned, or their ends capped, flat or dented. Prints a table; exit code 1 if a variant
-disagrees that is not listed in KNOWN (docs/reliability.md).
+disagrees that is not listed in KNOWN (docs/science/reliability.md).
 
   scripts/metamorphic.py [--only NAME]... [--out FOLDER]
 

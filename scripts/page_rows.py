@@ -50,10 +50,10 @@ def repeated(page, heading, row, relative, least, label=1):
 
     label: how many cells name the row; relative [-], least [in the figures' units]: the tolerance.
     """
-    path = os.path.join(ROOT, "docs", page)
+    path = os.path.join(ROOT, "docs", "science", page)
     old = page_row(path, heading, cells(row)[:label])
     agree = old is not None and len(cells(old)) == len(cells(row)) and all(
         same_cell(a, b, relative, least) for a, b in zip(cells(row), cells(old)))
-    print(f"docs/{page}, tolerance {100 * relative:g} % or {least:g}: {'repeated' if agree else 'DIFFERS'}\n"
+    print(f"docs/science/{page}, tolerance {100 * relative:g} % or {least:g}: {'repeated' if agree else 'DIFFERS'}\n"
           f"  page: {old if old is not None else 'no such row'}\n  now:  {row}", flush=True)
     return agree

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes docs/repairs.md: what the repairs of vessels achieve where the truth is known.
+"""Writes docs/science/repairs.md: what the repairs of vessels achieve where the truth is known.
 
   scripts/repairs.py [--only NAME]... [--quick] [--out FILE]
 
@@ -13,11 +13,11 @@ import common
 import page_rows
 
 SECTIONS = ["stamp", "narrowing", "findings", "deform"]
-PAGE = os.path.join(common.ROOT, "docs", "repairs.md")
+PAGE = os.path.join(common.ROOT, "docs", "science", "repairs.md")
 HEAD = """# Repairs
 
 What the repairs of vessels achieve on phantoms whose truth is known, by `scripts/repairs.py`. Seeds 1 to 100 are there to build
-with; the seeds that are reported here are others. [operations.md](operations.md) lists the operations' parameters,
+with; the seeds that are reported here are others. [operations.md](../user/operations.md) lists the operations' parameters,
 [findings.md](findings.md) the finder of artefacts.
 """
 

@@ -341,7 +341,7 @@ def measured(seeds, forest, folder):
 
 
 def section(tool, quick):
-    """The part of docs/repairs.md on findings, as lines. `tool` is the program; quick: a few seeds."""
+    """The part of docs/science/repairs.md on findings, as lines. `tool` is the program; quick: a few seeds."""
     common.PROGRAM = tool or common.PROGRAM
     folder = os.path.join(common.ROOT, "out", "repairs_findings")
     os.makedirs(folder, exist_ok=True)

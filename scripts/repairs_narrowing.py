@@ -1,5 +1,7 @@
 #!/usr/bin/env python3
-"""Measures correct-narrowing on images of random vessel trees with known lumens, and prints its section of docs/repairs.md.
+"""Measures correct-narrowing on images of random vessel trees with known lumens.
+
+Prints the section of docs/science/repairs.md.
 
   scripts/repairs_narrowing.py [--quick] [--seeds A-B] [--baseline] [--jobs N]
 

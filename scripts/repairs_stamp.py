@@ -3,8 +3,9 @@
 
   scripts/repairs_stamp.py [--quick] [--build]
 
-Prints the section of docs/repairs.md. --quick: 20 placements in place of 100. --build: seeds 1-100, with which the operation
-was built, in place of 101-200, on which it is reported. Runs bench_stamp, which scripts/build makes (scripts/build bench_stamp).
+Prints the section of docs/science/repairs.md. --quick: 20 placements in place of 100. --build: seeds 1-100, with which
+the operation was built, in place of 101-200, on which it is reported. Runs bench_stamp, which scripts/build makes
+(scripts/build bench_stamp).
 """
 import collections
 import json

@@ -90,7 +90,7 @@ private:
 };
 
 /// The cache that functions of surfaces use unless given another. Entries are pure functions of
-/// their keys, so sharing them changes no result; see docs/decisions.md.
+/// their keys, so sharing them changes no result; see docs/dev/decisions.md.
 [[nodiscard]] DerivedCache& derived_cache();
 
 }  // namespace vesselbench

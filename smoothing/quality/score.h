@@ -31,13 +31,13 @@ struct ScoreTerms {
 
 /// The factors of error and volume change in the default score; they cancel the 1/2 of Eq. 6.6.
 /// With them tau 0.5 ends close to the true surface on noisy spheres, tori, furcations and
-/// aneurysms (docs/experiments-suggestions.md).
+/// aneurysms (docs/science/experiments-suggestions.md).
 constexpr double kErrorWeight = 2.0, kVolumeWeight = 2.0;
 
 /// The factor of the volume change where staircases are smoothed. Voxels round to both sides, so
 /// that removing their steps keeps the volume while it moves every vertex: of the distance from the
 /// raw surface, the part that changes the volume is the error. Chosen on masks of known shape
-/// (docs/experiments-suggestions.md).
+/// (docs/science/experiments-suggestions.md).
 constexpr double kVolumeWeightOnStaircases = 6.0;
 
 struct ScoreSettings {

@@ -1,4 +1,5 @@
-// The forest: random vessel trees with known truth (docs/forest.md). scripts/forest.py runs it.
+// The forest: random vessel trees with known truth (docs/science/forest.md). scripts/forest.py runs
+// it.
 //
 //   forest list FIRST LAST            prints what the cases hold, about
 //   forest plant SEED FOLDER          writes the case and its truth.json

@@ -12,7 +12,7 @@
 
 namespace vesselbench::forest {
 
-/// What truth.json says of a case. Lengths in mm, LPS; docs/forest.md describes the fields.
+/// What truth.json says of a case. Lengths in mm, LPS; docs/science/forest.md describes the fields.
 struct Truth {
     struct Branch {
         Line line;  ///< up to the node or the true end

@@ -1,4 +1,4 @@
-// Damaged files against every reader (docs/reliability.md). scripts/fuzz runs it.
+// Damaged files against every reader (docs/science/reliability.md). scripts/fuzz runs it.
 //
 //   fuzz [--files N | --minutes M] [--seed S] [--jobs J] [--only FORMAT] [--every N] [--out FOLDER]
 //

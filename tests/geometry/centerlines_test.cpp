@@ -394,7 +394,7 @@ SCENARIO("A tube's mask surface has one line, whatever its terraces", "[geometry
 
 SCENARIO("Radii are those of inscribed circles, a little below the wall's mean radius",
          "[geometry][centerlines]") {
-    // An oblique tube in slices of two voxels, as its mask shows it (docs/decisions.md).
+    // An oblique tube in slices of two voxels, as its mask shows it (docs/dev/decisions.md).
     const double radius = GENERATE(1.2, 2.0, 3.0);
     const Vec3 along = Vec3(0.35, 0.2, 0.9).normalized();
     PhantomDescription tube;

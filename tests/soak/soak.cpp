@@ -1,4 +1,4 @@
-// Random edits, kills and replays (docs/reliability.md). scripts/soak runs it.
+// Random edits, kills and replays (docs/science/reliability.md). scripts/soak runs it.
 //
 //   soak [--minutes M] [--kills N] [--seed S] [--out FOLDER]   until both are reached; prints
 //   figures soak edit PROJECT FILES EXPORTS SEED                       edits a project until it is

@@ -207,8 +207,8 @@ SCENARIO("Decisions are no parameters, on pages and for programs", "[workbench][
     CHECK(section.find("| planes |") > section.find("| decision |"));
 }
 
-SCENARIO("docs/operations.md matches the program", "[workbench][command-line]") {
-    std::ifstream page(vesselbench::test::source_folder() + "/docs/operations.md");
+SCENARIO("docs/user/operations.md matches the program", "[workbench][command-line]") {
+    std::ifstream page(vesselbench::test::source_folder() + "/docs/user/operations.md");
     const std::string text{std::istreambuf_iterator<char>(page), {}};
     INFO("renew it with scripts/docs");
     CHECK((text == run({"operations", "--markdown"}).out));

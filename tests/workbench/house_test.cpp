@@ -20,8 +20,9 @@ namespace {
 
 using Names = std::set<std::string>;
 
-// The rooms and the rooms each may include besides itself; the drawing is in docs/architecture.md.
-// A file belongs to the room of its longest prefix; "geometry" on the right means all rooms there.
+// The rooms and the rooms each may include besides itself; the drawing is in
+// docs/dev/architecture.md. A file belongs to the room of its longest prefix; "geometry" on the
+// right means all rooms there.
 const std::map<std::string, Names> kDoors = {
     {"geometry/kernel", {}},
     {"geometry/image", {"geometry/kernel"}},

@@ -15,7 +15,7 @@ namespace vesselbench {
 // One vocabulary for figures, for all commands and operations: one function per thing, in one of
 // two forms. The document of `measure` has fixed keys without units; everything else, such as an
 // operation's report, adds the unit to the same key (`area_mm2`), and calls the largest of several
-// distances `largest_mm` (docs/measures.md).
+// distances `largest_mm` (docs/science/measures.md).
 
 /// How keys are written.
 enum class Keys {

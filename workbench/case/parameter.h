@@ -52,7 +52,7 @@ enum class Use {
 };
 
 /// One documented parameter: the command line's option, the check and its error text, the recipe's
-/// key and the page docs/operations.md are all generated from this.
+/// key and the page docs/user/operations.md are all generated from this.
 struct Parameter {
     std::string name;
     ParameterType type = ParameterType::Real;

@@ -39,7 +39,7 @@ void add_operations(CommandLine& line) {
                                     [options] { return list_operations(*options), 0; });
     command.add_option("NAME", options->name, "Explain this operation only")->type_name("");
     add_json(command, options->json);
-    command.add_flag("--markdown", options->markdown, "Print the page docs/operations.md")
+    command.add_flag("--markdown", options->markdown, "Print the page docs/user/operations.md")
         ->group("");
 }
 

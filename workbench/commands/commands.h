@@ -18,7 +18,7 @@ namespace vesselbench {
 struct OperationsOptions {
     std::string name;  ///< of one operation; empty: all of them
     bool json = false;
-    bool markdown = false;  ///< the page docs/operations.md
+    bool markdown = false;  ///< the page docs/user/operations.md
 };
 
 /// Prints the operation table, or one operation with its parameters.

@@ -16,7 +16,7 @@ struct Finding {
     Vec3 place = Vec3::Zero();  ///< where it is worst [mm]
     double size = 0.0;          ///< radius of the sphere around it that holds it, about [mm]
     /// Probability that the named irregularity is there, and is none of a sound vessel's [-]: as
-    /// docs/findings.md calibrates it.
+    /// docs/science/findings.md calibrates it.
     double certainty = 0.0;
     /// What was measured, in words and figures; its first remedy, if it has one, is the operation
     /// that treats it, with arguments.

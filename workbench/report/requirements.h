@@ -58,7 +58,7 @@ struct Requirement {
 };
 
 /// The six requirements to surface models of thesis Table 2.1. Limits and their sources are
-/// explained in docs/measures.md.
+/// explained in docs/science/measures.md.
 [[nodiscard]] std::vector<Requirement> requirements_of(const Purpose& purpose,
                                                        const ModelFigures& model);
 

@@ -13,8 +13,8 @@ namespace vesselbench {
 [[nodiscard]] nlohmann::ordered_json exports_json(std::span<const ChainEntry> entries);
 
 /// What a report on a printed or simulated patient's model should state, by the steps that the
-/// guideline of the RSNA names (docs/review.md): a list of `item`, `stated`, and `text` with what
-/// is, or why it is not.
+/// guideline of the RSNA names (docs/user/review.md): a list of `item`, `stated`, and `text` with
+/// what is, or why it is not.
 /// \param statement as statement_of() makes it
 [[nodiscard]] nlohmann::ordered_json reporting_items(const nlohmann::ordered_json& statement);
 

@@ -43,7 +43,7 @@ struct EditVerdict {
 /// True of an edit that is listed only because its reviewer saw it, for a verdict on the whole.
 [[nodiscard]] bool says_nothing(const EditVerdict& verdict);
 
-/// A file of verdicts, as the review page saves it (docs/review.md).
+/// A file of verdicts, as the review page saves it (docs/user/review.md).
 struct VerdictFile {
     std::string program;
     std::string project, project_name;  ///< its lasting id; its name, for people
