@@ -12,11 +12,14 @@
 
 #include "geometry/formats/surface_file.h"
 #include "geometry/kernel/diagnosed_error.h"
+#include "geometry/kernel/errors.h"
 #include "geometry/kernel/whole_file.h"
 #include "tests/support/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
 #include "workbench/operations/table.h"
+#include "workbench/prepare/bundled_cases.h"
+#include "workbench/prepare/input.h"
 #include "workbench/prepare/prepare.h"
 #include "workbench/prepare/refusal_report.h"
 #include "workbench/prepare/result_folder.h"
@@ -69,6 +72,17 @@ std::map<std::string, std::string> content_of(const std::string& folder) {
 }
 
 }  // namespace
+
+SCENARIO("The folder that was made of a bundled case does not hide the case",
+         "[workbench][prepare]") {
+    const auto file_of = [](const char* name) { return resolve_input({.input = name}, {}).file; };
+    fs::current_path(temporary_folder());
+    fs::create_directory("aneurysm");
+    CHECK_THROWS_AS(file_of("aneurysm"), InvalidInput);  // it has no slices
+    write_text("aneurysm/project.vbench", "");
+    CHECK(file_of("aneurysm").parent_path() == bundled_case("aneurysm"));
+    CHECK_THROWS_AS(file_of("no-case"), IoError);
+}
 
 SCENARIO("prepare does not touch a folder whose project is open elsewhere",
          "[workbench][prepare-folder]") {

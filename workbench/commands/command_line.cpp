@@ -16,6 +16,7 @@
 #include "workbench/commands/project_commands.h"
 #include "workbench/commands/shell/shell_commands.h"
 #include "workbench/phantoms/phantom_json.h"
+#include "workbench/prepare/case_files.h"
 
 namespace vesselbench {
 
@@ -152,7 +153,7 @@ std::string project_of(const CLI::App& app) {
         return given != nullptr && given->count() == 1 ? given->as<std::string>() : "";
     };
     if (app.got_subcommand("prepare"))
-        return (std::filesystem::path(value("--out")) / "project.vbench").string();
+        return (std::filesystem::path(value("--out")) / kProjectFile).string();
     return value("PROJECT");
 }
 

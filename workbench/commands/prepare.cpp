@@ -17,6 +17,7 @@
 #include "workbench/commands/console.h"
 #include "workbench/export/products.h"
 #include "workbench/operations/table.h"
+#include "workbench/prepare/case_files.h"
 #include "workbench/prepare/end_settings.h"
 #include "workbench/prepare/prepared_purposes.h"
 #include "workbench/report/log_json.h"
@@ -38,7 +39,7 @@ void print_prepared(const PrepareArguments& arguments, const PrepareSummary& mad
         warnings.push_back(worded_with_operation(warning));
     std::cout << text_from_json(Json({{"purpose", arguments.purpose},
                                       {"folder", arguments.out},
-                                      {"project", "project.vbench"},
+                                      {"project", kProjectFile},
                                       {"reports", {"report.json", "report.html"}},
                                       {"products", made.products},
                                       {"warnings", warnings},
@@ -99,7 +100,7 @@ std::vector<std::string> with_ends(std::vector<std::string> settings, const EndA
 void prepare_case(const PrepareArguments& arguments, const Progress& progress) {
     const Purpose& purpose = find_purpose(arguments.purpose);
     const std::filesystem::path out = arguments.out;
-    const std::string project = (out / "project.vbench").string();
+    const std::string project = (out / kProjectFile).string();
     const Teller tell(&remark, [&](const Diagnostic& warning) {
         const Audience reader{.project = project, .preparing = true};
         remark("warning: " + worded_with_operation(warning, reader));

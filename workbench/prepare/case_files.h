@@ -12,6 +12,9 @@ namespace vesselbench {
 /// The description of a case, in its folder.
 inline constexpr const char* kCaseFile = "case.json";
 
+/// The project in the folder that `prepare` makes of a case.
+inline constexpr const char* kProjectFile = "project.vbench";
+
 /// The file that case.json names; empty if it has no such key.
 /// \throw IoError if there is no such file, InvalidInput if it is outside the folder
 [[nodiscard]] std::filesystem::path case_file(const std::filesystem::path& folder,

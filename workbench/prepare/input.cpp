@@ -58,10 +58,12 @@ fs::path plain_path(const std::string& text) {
     return path.has_filename() ? path : path.parent_path();  // "cases/aneurysm/"
 }
 
-/// A name that is no file may be that of a bundled case.
+/// A name that is no file may be that of a bundled case; the folder that was made of the case is no
+/// input.
 fs::path input_path(const std::string& text) {
     const fs::path path = plain_path(text);
-    const fs::path bundled = file_exists(path) ? fs::path() : bundled_case(text);
+    const bool is_input = file_exists(path) && !file_exists(path / kProjectFile);
+    const fs::path bundled = is_input ? fs::path() : bundled_case(text);
     return bundled.empty() ? path : bundled;
 }
 

@@ -16,6 +16,7 @@
 #include "workbench/operations/table.h"
 #include "workbench/prepare/acceptance_gate.h"
 #include "workbench/prepare/apply_recipe.h"
+#include "workbench/prepare/case_files.h"
 #include "workbench/prepare/kept_recipe.h"
 #include "workbench/prepare/model_check.h"
 #include "workbench/prepare/prepare_report.h"
@@ -35,8 +36,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-constexpr const char* kProject = "project.vbench";
 
 /// Fraction of the progress for the edits; the rest is for reports and files.
 constexpr double kEditsShare = 0.8;
@@ -95,7 +94,7 @@ std::size_t reviewers_asked(const PrepareOptions& options, const Input& input, c
 /// The folder's project: a new one, for which an earlier one is renamed while no other process can
 /// open it for writing, or the one that is resumed.
 Session opened_project(const PrepareOptions& options, const Teller& tell) {
-    const fs::path project = options.out / kProject;
+    const fs::path project = options.out / kProjectFile;
     const SessionOptions how{.author = options.author, .find = find_operation};
     if (options.resume) return resumed(project, how);
     return Session::create(project, how, [&] { keep_earlier(project, tell); });
@@ -126,7 +125,7 @@ void keep_name(const fs::path& project, const Input& input) {
 /// The input, with the name that a project which is resumed was given unless there is a new one.
 InputOptions named_input(const PrepareOptions& options) {
     InputOptions input = options.input;
-    const fs::path project = options.out / kProject;
+    const fs::path project = options.out / kProjectFile;
     if (options.resume && input.name.empty() && fs::exists(project))
         input.name = stored_text(project, StoredText::InputName);
     return input;
@@ -151,7 +150,7 @@ Recipe rest_in(Session& session, const Recipe& recipe, const PrepareOptions& opt
                PreparedCase& prepared, const Teller& tell) {
     refuse_other_input(session, prepared.input);
     const ResumedRecipe here = resumed_recipe(recipe, *session.snapshot(), options.purpose,
-                                              prepared_purposes(options.out / kProject).done);
+                                              prepared_purposes(options.out / kProjectFile).done);
     if (!here.refusal.empty()) throw UsageError("--resume: " + here.refusal);
     const std::vector<LogEntry> log = session.log(options.purpose);
     refuse_late_settings(options.arguments, here.rest, log);
@@ -179,18 +178,20 @@ std::optional<Diagnostic> make_model(Session& session, const Recipe& recipe,
                                      const Progress& progress) {
     ModelChecks checks(session, options.purpose);
     const Progress quiet = progress.silent();
-    const RecipeWatch watch{
-        .before =
-            [&](Step step) {
-                if (step >= Step::Product) checks.surface_final(quiet);
-            },
-        .after =
-            [&](const LogEntry& edit) {
-                if (edit.status == EditStatus::Stale) refuse_stale_edits({edit});
-                checks.after(edit, quiet);
-            },
-        .warned =
-            [&](const RecipeWarning& warning) { keep_warning(options.out / kProject, warning); }};
+    const RecipeWatch watch{.before =
+                                [&](Step step) {
+                                    if (step >= Step::Product) checks.surface_final(quiet);
+                                },
+                            .after =
+                                [&](const LogEntry& edit) {
+                                    if (edit.status == EditStatus::Stale)
+                                        refuse_stale_edits({edit});
+                                    checks.after(edit, quiet);
+                                },
+                            .warned =
+                                [&](const RecipeWarning& warning) {
+                                    keep_warning(options.out / kProjectFile, warning);
+                                }};
     const double until =
         static_cast<double>(recipe.size()) / static_cast<double>(recipe.size() + 1);
     run_recipe(session, recipe, options.purpose, tell, progress.part(0.0, until), watch);
@@ -264,7 +265,7 @@ void write_refusal(const PrepareOptions& options, const DiagnosedFailure& failur
     const Json report =
         refusal_json(options, failure, remaining_results(options.out, names, earlier));
     write_file(options.out / names.front(), text_from_json(printable_json(report), 2) + "\n");
-    tell(std::string("the completed edits are kept in ") + kProject +
+    tell(std::string("the completed edits are kept in ") + kProjectFile +
          "; report.json lists what was found; --resume continues there, also after a manual edit");
 }
 
@@ -273,12 +274,12 @@ PrepareSummary finished(Session& session, const Recipe& rest, const PrepareOptio
                         PreparedCase prepared, const Teller& tell, const Progress& progress) {
     const std::optional<Diagnostic> warning =
         make_model(session, rest, options, tell, progress.part(0.0, kEditsShare));
-    for (Diagnostic& kept : kept_warnings(options.out / kProject, session, options.purpose))
+    for (Diagnostic& kept : kept_warnings(options.out / kProjectFile, session, options.purpose))
         prepared.warnings.push_back(std::move(kept));
     if (warning) prepared.warnings.push_back(*warning);
     prepared.scene = session.scene(options.purpose);
     refuse_stale_edits(session.log(options.purpose));
-    end_purpose(options.out / kProject, options.purpose);
+    end_purpose(options.out / kProjectFile, options.purpose);
     fold_log(session);
     const std::string openings = openings_text(surface_of(prepared.scene));
     if (!openings.empty()) tell("openings: " + openings);
@@ -296,7 +297,7 @@ PrepareSummary finished(Session& session, const Recipe& rest, const PrepareOptio
 /// \return the number of reviewers who have to accept the model
 std::size_t begin_project(const PrepareOptions& options, const Input& input,
                           const Json& recipe_json, const FlowSettings& flow) {
-    const fs::path project = options.out / kProject;
+    const fs::path project = options.out / kProjectFile;
     if (!options.resume) keep_recipes(project, input);
     if (!options.recipe.empty()) keep_recipe(project, options.purpose, recipe_json);
     keep_name(project, input);
@@ -313,7 +314,7 @@ void keep_what_was_made(Session& session, const PrepareOptions& options, bool an
     if (unusable || dynamic_cast<const UsageError*>(&error) != nullptr) return;
     if (const auto* failure = dynamic_cast<const DiagnosedFailure*>(&error))
         return write_refusal(options, *failure, tell);
-    tell("the completed edits are kept in " + std::string(kProject) +
+    tell("the completed edits are kept in " + std::string(kProjectFile) +
          "; the results were not written; --resume continues there, also after a manual edit");
 }
 
@@ -321,7 +322,7 @@ void keep_what_was_made(Session& session, const PrepareOptions& options, bool an
 
 PrepareSummary prepare(const PrepareOptions& options, const Teller& tell,
                        const Progress& progress) {
-    const fs::path project = options.out / kProject;
+    const fs::path project = options.out / kProjectFile;
     if (options.resume && !fs::exists(project))
         throw UsageError("--resume: there is no project.vbench in '" +
                          options.out.filename().string() + "' to go on with");

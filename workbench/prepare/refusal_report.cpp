@@ -7,6 +7,7 @@
 #include "geometry/kernel/diagnosed_error.h"
 #include "workbench/case/diagnostic_json.h"
 #include "workbench/case/version.h"
+#include "workbench/prepare/case_files.h"
 
 namespace vesselbench {
 
@@ -32,7 +33,7 @@ Json resume_command(const PrepareOptions& options) {
 }
 
 std::string project_of(const PrepareOptions& options) {
-    return (options.out / "project.vbench").string();
+    return (options.out / kProjectFile).string();
 }
 
 void add_arguments(Json& command, const Remedy& remedy) {
