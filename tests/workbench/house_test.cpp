@@ -32,6 +32,7 @@ const std::map<std::string, Names> kDoors = {
     {"geometry/vessel/openings",
      {"geometry/kernel", "geometry/editing", "geometry/vessel/centerlines",
       "geometry/vessel/ends"}},
+    {"geometry/vessel/posing", {"geometry/kernel", "geometry/vessel/centerlines"}},
     {"geometry/vessel/repair", {"geometry/kernel", "geometry/editing"}},
     {"geometry/formats", {"geometry/kernel", "geometry/image", "geometry/vessel"}},
     {"geometry/phantoms", {"geometry/kernel", "geometry/image"}},
