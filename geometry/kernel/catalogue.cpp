@@ -114,6 +114,12 @@ constexpr CatalogueText kTexts[] = {
      "does|pairs of triangles still do}: separate the walls, or use {fix}]"},
 
     // Posing of branches.
+    {"nothing-to-deform", "nothing is to be done: give {fix}, or {fix2}"},
+    {"branches-apart", "no gap between branches is smaller than {gap_mm} mm: nothing was moved"},
+    {"branches-parted",
+     "the smallest gap between branches, {before_mm:%.2f} mm at {place}, was widened to "
+     "{gap_mm:%.2f} mm; a wall was moved by up to {shift_mm:%.2f} mm: the model is for printing "
+     "only"},
     {"no-branch-here", "no vessel's centerline is near {place}"},
     {"place-is-rigid",
      "at {place} the vessel does not bend, since a furcation or the inlet is near: choose a place "
