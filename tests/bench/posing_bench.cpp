@@ -55,7 +55,7 @@ Json facts(const Surface& before, const Surface& after, const std::vector<BentAx
     return {{"radius_error", radius_error(before, after, axes)},
             {"volume_error", std::abs(volume(after) / volume(before) - 1.0)},
             {"sound", c.closed && c.manifold && self_intersections(after).empty()},
-            {"cap_bulge_mm", cap_bulge(after)},
+            {"cap_bulge_mm", cap_bulge(after) - cap_bulge(before)},
             {"labels_kept", after.patch_labels == before.patch_labels}};
 }
 

@@ -102,6 +102,16 @@ SCENARIO("The end of a branch follows rigidly", "[geometry][posing]") {
               Approx((before.points()[v] - before.points()[end[0]]).norm()).margin(1e-9));
 }
 
+SCENARIO("A free end that is near moves along and keeps its direction", "[geometry][posing]") {
+    const Surface after =
+        deformed(tube(), {.at = {0, 0, 54}, .move = {2.0, 0, 0}, .reach = 15.0}).surface;
+    const auto patches = measure_patches(after);
+    const auto outlet = std::ranges::find(patches, PatchKind::Outlet, &PatchMeasures::kind);
+    REQUIRE(outlet != patches.end());
+    CHECK(outlet->centroid.x() == Approx(2.0).margin(0.6));
+    CHECK(std::abs(outlet->normal.x()) < 0.15);
+}
+
 SCENARIO("A bend is straightened", "[geometry][posing]") {
     const Surface before = quarter_ring();
     const DeformedBranch result =
