@@ -56,7 +56,7 @@ def deform_rows(rows):
         ["largest distance from where the place was to go, across the vessel", "", largest(done, "miss_mm", 1.0, "%.3f mm")],
         ["vertices before the reach that moved", "0",
          f"{sum(row['strayed'] for row in done)} of {sum(row['root_side'] for row in done):,}"],
-        ["processor time of all threads without centerlines, largest", "5 s", largest(asked, "cpu_seconds", 1.0, "%.1f s")],
+        ["processor time of all threads without centerlines, largest", "5 s", largest(asked, "cpu_seconds", 1.0, "%.2f s")],
     ]
 
 
@@ -71,7 +71,7 @@ def gap_rows(rows):
         ["the print check agrees", "", share(done, lambda row: row["print_gap_mm"] >= 1.0)],
         *common_rows(done),
         ["largest shift of a wall", "", largest(done, "largest_shift_mm", 1.0, "%.2f mm")],
-        ["processor time of all threads without centerlines, largest", "5 s", largest(rows, "cpu_seconds", 1.0, "%.1f s")],
+        ["processor time of all threads without centerlines, largest", "5 s", largest(rows, "cpu_seconds", 1.0, "%.2f s")],
     ]
 
 
@@ -99,10 +99,11 @@ def measured(quick, first):
 def lines_of(results, first):
     lines = ["## Branches that are moved (`deform-branch`, `part-branches`)", "",
              f"Seeds from {first}; vessels whose own walls cross are left out, {len(results['deform'])} and {len(results['gap'])} are left.",
-             "Random vessels of 1 to 2.5 mm radius, with triangles of a quarter of it. `deform-branch`",
-             "moves a place of a curved tube or of a branch by 0.5 to 3 radii, straightens bows, and must refuse loops. `part-branches`",
-             "finds two branches that approach each other, one that winds around another, two side by side, or two that join again,",
-             "which cannot be parted. A section's radius is that of the circle of its area, across the axis before and after.", ""]
+             "The vessels have radii of 1 to 2.5 mm, and triangles of a quarter of that. `deform-branch` moves a place of a curved tube",
+             "or of a branch by 0.5 to 3 radii, straightens bows, and must refuse loops. `part-branches` finds two branches that",
+             "approach each other, one that winds around another, two side by side, or two that join again, which cannot be parted.",
+             "A section's radius is that of the circle of its area, across the axis before and after. The print check also counts",
+             "creases of the wall that part-branches leaves alone.", ""]
     for what, title, picture, rows in PARTS:
         lines += [f"### {title}", "", picture, "",
                   *common.table(["", "goal", "measured"], rows(results[what])).splitlines(), ""]
