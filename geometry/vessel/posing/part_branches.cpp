@@ -96,7 +96,7 @@ private:
         std::erase_if(walls, [&](const FacingWall& wall) {
             const double crease =
                 kCreaseEdges * longest_edge(now_.points(), now_.triangles()[wall.triangle]);
-            return same_body(wall) || is_fold(now_, wall, crease);
+            return is_fold(now_, wall, crease);
         });
         return walls;
     }
@@ -105,12 +105,6 @@ private:
         const Triangle& t = surface_.triangles()[wall.triangle];
         return *std::ranges::min_element(
             t, {}, [&](VertexId v) { return (now_.points()[v] - wall.to).squaredNorm(); });
-    }
-
-    /// Between walls of one furcation there is no gap that posing could change.
-    [[nodiscard]] bool same_body(const FacingWall& wall) const {
-        const Binding &a = armature_.bindings[wall.from], &b = armature_.bindings[target(wall)];
-        return a.rigid && b.rigid && a.rod == b.rod;
     }
 
     [[nodiscard]] RodPair pair_of(const FacingWall& wall) const {
