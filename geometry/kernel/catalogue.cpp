@@ -175,6 +175,33 @@ constexpr CatalogueText kTexts[] = {
      "{place}: walls would have passed through each other[; {crossings#pair of triangles still "
      "does|pairs of triangles still do}: separate the walls, or use {fix}]"},
 
+    // Posing of branches.
+    {"nothing-to-deform", "nothing is to be done: give {fix}, or {fix2}"},
+    {"branches-apart", "no gap between branches is smaller than {gap_mm} mm: nothing was moved"},
+    {"branches-parted",
+     "the smallest gap between branches, {before_mm:%.2f} mm at {place}, was widened to "
+     "{gap_mm:%.2f} mm; a wall was moved by up to {shift_mm:%.2f} mm: the model is for printing "
+     "only"},
+    {"no-branch-here", "no vessel's centerline is near {place}"},
+    {"place-is-rigid",
+     "at {place} the vessel does not bend, since a furcation or the inlet is near: choose a place "
+     "farther along the branch"},
+    {"branch-too-short-to-bend",
+     "the branch at {place}, {length_mm} mm long, is too short to be bent between its ends"},
+    {"branch-in-loop",
+     "the branch at {place} is part of a loop of vessels: it cannot be moved on its own"},
+    {"move-not-reached",
+     "the branch cannot follow to {place}: it is held {missing_mm:%.3g} mm before, since vessels "
+     "keep their length; move it less, or use a larger {fix}"},
+    {"bend-too-strong",
+     "the vessel would be bent to a radius of {bend_mm:%.3g} mm at {place}, less than {radii} of "
+     "its own radii ({least_mm:%.3g} mm): move it less, or use a larger {fix}"},
+    {"posing-crosses-walls",
+     "walls would pass through each other near {place}: move the branch less, or elsewhere"},
+    {"gap-not-reached",
+     "the gap at {place} cannot be made {gap_mm} mm wide: the branches can be pushed apart to "
+     "{reached_mm:%.3g} mm there; use a smaller {fix}, or move a branch by hand with {fix2}"},
+
     // Smoothing.
     {"filter-crosses-walls",
      "{vertices#vertex|vertices} moved less than the filter would have moved them, first near "

@@ -44,6 +44,8 @@ namespace vesselbench {
     ROW(clip_opening) \
     ROW(extrude_opening) \
     ROW(smooth) \
+    ROW(deform_branch) \
+    ROW(part_branches) \
     ROW(remesh) \
     ROW(decimate) \
     ROW(subdivide) \

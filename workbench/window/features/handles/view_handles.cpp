@@ -31,6 +31,7 @@ const Surface* model_of(const PanelContext& c) {
 void ViewHandles::forget() {
     take_cut(nullptr, std::nullopt);
     cut_form_.reset();
+    deform_.forget();
     shape_ = {};
     openings_.clear();
     state_ = State::Idle;
@@ -56,6 +57,8 @@ void ViewHandles::take_shape(const PanelContext& c) {
                         ? c.core.get<OpeningsFeature>().openings().cut_form()
                         : form;
     take_cut(model, cut_form_ ? cut_question(*cut_form_) : std::nullopt);
+    const bool deforms = form && model != nullptr && deforms_branch(*form);
+    deform_.update(model, deforms ? &*form : nullptr);
     shape_ = {};
     const auto& offered = c.core.get<HandlesFeature>().offered_box();
     if (form && offered)
@@ -68,6 +71,8 @@ void ViewHandles::take_shape(const PanelContext& c) {
         shape_ = length_shape(*form, openings_);
     else if (has_stretch(*form))
         shape_ = stretch_shape(*form);
+    else if (deforms && deform_.preview())
+        shape_ = deform_shape(*form, *deform_.preview());
     else if (cut_form_ && cut_)
         shape_ = cut_shape(*cut_form_, *cut_);
     if (!c.core.armed().empty()) shape_.handles.clear();
@@ -115,6 +120,7 @@ void ViewHandles::begin(PanelContext& c, const PixelView& view, const ViewPixel&
               .handle = shape_.handles[*hot_],
               .cut = cut_,
               .cut_form = cut_form_,
+              .branch = deform_.preview(),
               .openings = openings_,
               .cursor = cursor,
               .offset = cursor - view.place(shape_.handles[*hot_].point).value_or(cursor)};
@@ -133,6 +139,7 @@ std::vector<FieldText> ViewHandles::texts(const PanelContext& c, const Vec3& to,
     if (has_field(before, Meaning::Openings))
         return length_texts(before, start_.openings, start_.index, to, snap);
     if (has_stretch(before)) return stretch_texts(before, start_.index, to);
+    if (start_.branch) return deform_texts(*start_.branch, start_.index, to);
     if (!start_.cut || !start_.cut_form) return {};
     std::vector<FieldText> moved = cut_texts(*start_.cut_form, *start_.cut, start_.index, to);
     const OpeningsModel& openings = c.core.get<OpeningsFeature>().openings();
@@ -197,6 +204,8 @@ void ViewHandles::draw(PanelContext& c, const PixelView& screen) const {
                        note.text);
     if (!c.core.armed().empty() || c.core.searches_places()) return;
     if (cut_ && !cut_->problem.empty()) return draw_hint(c.ui, rect_of(screen), cut_->problem);
+    if (const auto& branch = deform_.preview(); branch && !branch->problem.empty())
+        return draw_hint(c.ui, rect_of(screen), branch->problem);
     if (state_ == State::Idle && !hot_) return;
     ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
     if (state_ == State::Dragging)

@@ -9,6 +9,7 @@
 #include "workbench/session/task.h"
 #include "workbench/window/core/panel_context.h"
 #include "workbench/window/drawing/screen_places.h"
+#include "workbench/window/features/handles/deform_handles.h"
 #include "workbench/window/features/handles/form_shape.h"
 
 namespace vesselbench {
@@ -18,7 +19,7 @@ namespace vesselbench {
 class ViewHandles {
 public:
     /// \param wake as Viewport's
-    explicit ViewHandles(std::function<void()> wake) : search_(std::move(wake)) {}
+    explicit ViewHandles(const std::function<void()>& wake) : search_(wake), deform_(wake) {}
 
     /// Once a frame, while the view's area is ImGui's last item, before the camera follows the
     /// mouse.
@@ -33,8 +34,8 @@ public:
     /// True while the cursor is over a handle, or drags one.
     [[nodiscard]] bool has_cursor() const { return hot_.has_value() || holds_left(); }
 
-    /// True while a cut is searched.
-    [[nodiscard]] bool pending() const { return search_.pending(); }
+    /// True while a cut or a bent branch is searched.
+    [[nodiscard]] bool pending() const { return search_.pending() || deform_.pending(); }
 
     [[nodiscard]] const std::vector<RegionLine>& lines() const { return shape_.lines; }
 
@@ -57,6 +58,7 @@ private:
         Handle handle;
         std::optional<Cut> cut;
         std::optional<OperationForm> cut_form;
+        std::optional<BranchPreview> branch;
         std::vector<PatchMeasures> openings;
         ViewPixel cursor = ViewPixel::Zero();
         ViewPixel offset = ViewPixel::Zero();  ///< from the handle to the cursor
@@ -77,6 +79,7 @@ private:
     Surface asked_surface_;
     std::optional<Cut> cut_;  ///< the last one of the question's branch; none: not known yet
     std::optional<OperationForm> cut_form_;  ///< of the one cut that has handles
+    DeformSearch deform_;
     FormShape shape_;
     std::vector<PatchMeasures> openings_;  ///< of the model, without a preview
     State state_ = State::Idle;
