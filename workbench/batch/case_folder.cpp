@@ -1,8 +1,10 @@
 #include "workbench/batch/case_folder.h"
 
+#include <fstream>
+
+#include "geometry/kernel/bare_name.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/pending_files.h"
-#include "geometry/kernel/whole_file.h"
 #include "workbench/batch/case_record.h"
 
 namespace vesselbench {
@@ -21,6 +23,13 @@ fs::path moved_away(const BatchFolders& folders, const std::string& name) {
         place = folders.earlier() / (name + "." + std::to_string(number));
     fs::rename(folders.of(name), place);
     return place;
+}
+
+/// In one step, without a temporary file: killed within, it would leave a folder that is not known
+/// as ours.
+void mark(const fs::path& folder) {
+    if (!std::ofstream(folder / kRunning))
+        throw IoError("'" + bare_name(folder) + "' cannot be written");
 }
 
 /// The mark last: without it, the rest would not be known as ours.
@@ -44,7 +53,7 @@ fs::path begin_case(const BatchFolders& folders, const std::string& name) {
                       "' exists and is not of a batch: give another --out, or the case another "
                       "name");
     make_folder(folder);
-    write_file(folder / kRunning, "");
+    mark(folder);
     return earlier;
 }
 
