@@ -3,7 +3,8 @@
 the products itself and with OpenFOAM and PrusaSlicer, and writes the table docs/science/acceptance.md, with the forest's
 results from docs/science/forest.md beside it. A run of every case ends with one row of every page of figures measured again
 (`scripts/experiments.py --repeat` and so on), so that no page goes stale unseen, with the review page's tests in Firefox
-(`scripts/firefox`), and with the package in a bare Debian 12 (`scripts/try_package`).
+(`scripts/firefox`), with the package in a bare Debian 12 (`scripts/try_package`), and with batches that are killed at random
+(`scripts/batch_kills.py`) and run on Slurm (`scripts/batch_slurm.py`).
 
   scripts/acceptance.py [--only NAME]... [--goal cfd|rp] [--out FOLDER] [--no-table] [--quick] [--no-solve]
   scripts/acceptance.py --forest       only renews the forest's part of docs/science/acceptance.md
@@ -484,7 +485,7 @@ def main():
     whole = not (options.quick or options.only or options.goal)
     if whole and not options.no_table:
         write_table(rows, os.path.join(ROOT, "docs", "science", "acceptance.md"), revision)
-    repeated = worst_code([*REPEATS, "firefox", "try_package"]) if whole else 0
+    repeated = worst_code([*REPEATS, "firefox", "try_package", "batch_kills.py", "batch_slurm.py"]) if whole else 0
     if repeated == 1 or tube or any(r["must"] and (r["code"] != 0 or r["failures"]) for r in rows):
         return 1
     return repeated if os.path.isdir(DATA) else 77

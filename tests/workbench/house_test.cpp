@@ -78,6 +78,10 @@ const std::map<std::string, Names> kDoors = {
      {"geometry", "meshing/products", "workbench/case", "workbench/session", "workbench/operations",
       "workbench/findings", "workbench/export", "workbench/report", "workbench/review",
       "workbench/phantoms"}},
+    {"workbench/batch",
+     {"geometry/kernel", "geometry/formats", "workbench/case", "workbench/project",
+      "workbench/worker", "workbench/session", "workbench/operations", "workbench/export",
+      "workbench/report", "workbench/review", "workbench/prepare"}},
     {"workbench/suggest",
      {"geometry/kernel", "smoothing/quality", "workbench/case", "workbench/project",
       "workbench/worker", "workbench/session", "workbench/operations"}},
@@ -263,16 +267,13 @@ const std::map<std::string, Names> kDoors = {
 const Names kFolders = {"geometry", "smoothing", "gpu", "meshing", "workbench"};
 
 // Headers whose functions generated sources define, or one source per command.
-const Names kDeclareWithoutSource = {"geometry/vessel/ends/end_weights.h",
-                                     "gpu/shader_texts.h",
-                                     "workbench/phantoms/builtin.h",
-                                     "workbench/prepare/builtin_recipes.h",
-                                     "workbench/report/label_font.h",
-                                     "workbench/report/report_template.h",
-                                     "workbench/review/audit_template.h",
-                                     "workbench/review/review_page_bytes.h",
-                                     "workbench/window/style/embedded_fonts.h",
-                                     "workbench/commands/commands.h"};
+const Names kDeclareWithoutSource = {
+    "geometry/vessel/ends/end_weights.h",   "gpu/shader_texts.h",
+    "workbench/batch/page_texts.h",         "workbench/phantoms/builtin.h",
+    "workbench/prepare/builtin_recipes.h",  "workbench/report/label_font.h",
+    "workbench/report/report_template.h",   "workbench/review/audit_template.h",
+    "workbench/review/review_page_bytes.h", "workbench/window/style/embedded_fonts.h",
+    "workbench/commands/commands.h"};
 
 // Units that still need each other: a list that only shrinks.
 const std::set<Names> kUnitsInCircles = {

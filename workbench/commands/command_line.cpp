@@ -10,6 +10,7 @@
 #include "geometry/kernel/wording.h"
 #include "workbench/case/near_names.h"
 #include "workbench/case/version.h"
+#include "workbench/commands/cohort_commands.h"
 #include "workbench/commands/command_parser.h"
 #include "workbench/commands/measuring_commands.h"
 #include "workbench/commands/preparing_commands.h"
@@ -97,6 +98,7 @@ void set_up(CommandLine& line) {
     line.app.require_subcommand(0, 1);
     add_window(line);
     add_preparing_commands(line);
+    add_cohort_commands(line);
     add_project_commands(line);
     add_measuring_commands(line);
     add_operations(line);

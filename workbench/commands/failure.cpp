@@ -16,6 +16,7 @@ using Json = nlohmann::ordered_json;
 
 Json failure_json(const Failure& failure, const FailedCommand& command) {
     Json json = {{"error", failure.text}, {"code", failure.code}};
+    if (failure.cancelled) json["cancelled"] = true;
     if (command.edit) json["edit"] = *command.edit;
     for (const Diagnostic& diagnostic : failure.diagnostics)
         json["diagnostics"].push_back(diagnostic_json(diagnostic));

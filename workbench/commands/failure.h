@@ -21,10 +21,11 @@ struct Failure {
     std::string text;
     int code = 1;  ///< exit code
     std::vector<Diagnostic> diagnostics = {};
+    bool cancelled = false;  ///< by a signal
 };
 
 /// Writes the failure's line to stderr; with --json also a JSON document to stdout: error, code,
-/// and edit and diagnostics if there are any.
+/// and edit, diagnostics and cancelled if there are any.
 /// \return the exit code
 int report_failure(const Failure& failure, const FailedCommand& command);
 

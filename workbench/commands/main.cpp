@@ -14,6 +14,7 @@
 #include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/whole_file.h"
+#include "workbench/batch/case_process.h"
 #include "workbench/case/diagnostic_words.h"
 #include "workbench/commands/command_line.h"
 #include "workbench/commands/console.h"
@@ -44,6 +45,13 @@ int run(int argc, char** argv, const std::stop_token& stop) {
     const auto fail_with = [&](const std::string& text, int code) {
         return vesselbench::report_failure({text, code, {}}, command);
     };
+    const auto cancelled = [&] {
+        return vesselbench::report_failure(
+            {.text = "stopped (cancelled); what was finished before is kept",
+             .code = kFailed,
+             .cancelled = true},
+            command);
+    };
     try {
         return vesselbench::run_command_line(argc, argv, stop, command);
     } catch (const vesselbench::UsageError& error) {
@@ -51,7 +59,7 @@ int run(int argc, char** argv, const std::stop_token& stop) {
     } catch (const vesselbench::InvalidInput& error) {
         return fail(error, kBadInput);
     } catch (const vesselbench::Cancelled&) {
-        return fail_with("stopped (cancelled); what was finished before is kept", kFailed);
+        return cancelled();
     } catch (const vesselbench::IoError& error) {
         return fail(error, kBadInput);
     } catch (const std::filesystem::filesystem_error& error) {
@@ -87,6 +95,7 @@ int main(int argc, char** argv) {
         for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_IGN);
         return vesselbench::worker_main(vesselbench::find_operation);
     }
+    vesselbench::enter_case_process(argc, argv);
     // A full disk or a closed pipe then causes a failed write, which is reported and cleaned
     // up.
     std::signal(SIGXFSZ, SIG_IGN);

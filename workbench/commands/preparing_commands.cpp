@@ -44,14 +44,7 @@ std::string prepare_footer() {
            "print";
 }
 
-void add_input(CLI::App& command, InputArguments& input) {
-    command
-        .add_option("INPUT", input.input,
-                    "A surface, an image, a folder of DICOM slices, a case folder, or the name of "
-                    "a bundled\n"
-                    "case: aneurysm")
-        ->required()
-        ->type_name("");
+void add_input_options(CLI::App& command, InputArguments& input) {
     command.add_option("--mask", input.mask, "Segmentation of the image, on the same grid")
         ->type_name("FILE");
     command
@@ -60,6 +53,21 @@ void add_input(CLI::App& command, InputArguments& input) {
             "Unit of the file: mm, cm or m (default: as stated in it, or the only one in which "
             "it is a vessel)")
         ->type_name("UNIT");
+}
+
+void add_input_argument(CLI::App& command, InputArguments& input) {
+    command
+        .add_option("INPUT", input.input,
+                    "A surface, an image, a folder of DICOM slices, a case folder, or the name of "
+                    "a bundled\n"
+                    "case: aneurysm")
+        ->required()
+        ->type_name("");
+}
+
+void add_input(CLI::App& command, InputArguments& input) {
+    add_input_argument(command, input);
+    add_input_options(command, input);
 }
 
 void add_neighbours(CLI::App& command, InputArguments& input) {
@@ -100,20 +108,13 @@ void add_prepare(CommandLine& line) {
     CLI::App& command =
         add_command(line, "prepare", "Make a CFD model or a print model from an image or a surface",
                     [options, &line] { return prepare_case(*options, line.progress), 0; });
-    add_input(command, options->input);
-    add_neighbours(command, options->input);
+    add_input_argument(command, options->input);
     command.footer(prepare_footer());
-    command.add_option("--for", options->purpose, "Purpose of the model: " + purposes_help())
-        ->required()
-        ->type_name(joined(purpose_names(), "|"));
-    command.add_option("--recipe", options->recipe, "JSON list of operations to use instead")
-        ->type_name("FILE");
+    add_purpose(command, options->purpose);
     command.add_flag(
         "--resume", options->resume,
         "Continue in the folder's project with the edits of the recipe that are missing");
-    add_settings(command, options->settings);
-    add_end_options(command, options->ends);
-    add_names(command, options->author, options->name);
+    add_case_options(command, *options);
     command.add_option("--out", options->out, "Folder of the results; created if missing")
         ->required()
         ->type_name("FOLDER");
@@ -146,6 +147,22 @@ void add_new(CommandLine& line) {
 }
 
 }  // namespace
+
+void add_purpose(CLI::App& command, std::string& purpose) {
+    command.add_option("--for", purpose, "Purpose of the model: " + purposes_help())
+        ->required()
+        ->type_name(joined(purpose_names(), "|"));
+}
+
+void add_case_options(CLI::App& command, PrepareArguments& options) {
+    add_input_options(command, options.input);
+    add_neighbours(command, options.input);
+    command.add_option("--recipe", options.recipe, "JSON list of operations to use instead")
+        ->type_name("FILE");
+    add_settings(command, options.settings);
+    add_end_options(command, options.ends);
+    add_names(command, options.author, options.name);
+}
 
 void add_preparing_commands(CommandLine& line) {
     add_prepare(line);

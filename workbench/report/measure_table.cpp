@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/wording.h"
+#include "workbench/case/csv_text.h"
 #include "workbench/case/point_json.h"
 
 namespace vesselbench {
@@ -14,13 +15,6 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kHeader =
     "name,kind,length [mm],section area [mm^2],diameter by area [mm],on,state,variant,time,"
     "points [mm]\r\n";
-
-/// A field that may contain anything.
-std::string quoted(const std::string& words) {
-    std::string field = "\"";
-    for (const char c : words) field += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return field + "\"";
-}
 
 std::string points_text(const std::vector<Vec3>& points) {
     std::string text;
@@ -58,13 +52,13 @@ std::string measures_csv(const std::vector<KeptMeasure>& measures) {
     std::string table = kHeader;
     for (const KeptMeasure& measure : measures) {
         const bool section = has_section(measure);
-        table += quoted(measure.name) + "," + to_string(measure.kind) + "," +
+        table += csv_quoted(measure.name) + "," + to_string(measure.kind) + "," +
                  formatted(measure.length, "%.4f") + "," +
                  (section ? formatted(measure.area, "%.4f") : "") + "," +
                  (section ? formatted(measure.equivalent, "%.4f") : "") + "," +
                  to_string(measure.on) + "," + std::to_string(measure.state) + "," +
-                 quoted(measure.variant) + "," + quoted(measure.time) + "," +
-                 quoted(points_text(places_of(measure))) + "\r\n";
+                 csv_quoted(measure.variant) + "," + csv_quoted(measure.time) + "," +
+                 csv_quoted(points_text(places_of(measure))) + "\r\n";
     }
     return table;
 }

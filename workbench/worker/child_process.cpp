@@ -69,7 +69,7 @@ void write_all(int descriptor, std::span<const std::byte> bytes) {
     }
 }
 
-Child::Child(const ChildSetup& setup) {
+Child::Child(const ChildSetup& setup) : own_group_(setup.own_group) {
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     std::array<bool, kFirstFree> given{};
@@ -90,8 +90,12 @@ Child::Child(const ChildSetup& setup) {
     // Of two variables with one name, programs find the first.
     for (char** entry = environ; *entry != nullptr; ++entry) surroundings.push_back(*entry);
     surroundings.push_back(nullptr);
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    if (setup.own_group) posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
     const int code =
-        posix_spawnp(&pid_, words[0], &actions, nullptr, words.data(), surroundings.data());
+        posix_spawnp(&pid_, words[0], &actions, &attributes, words.data(), surroundings.data());
+    posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&actions);
     if (code == 0) return;
     pid_ = -1;
@@ -100,7 +104,7 @@ Child::Child(const ChildSetup& setup) {
 
 Child::~Child() {
     if (pid_ <= 0) return;
-    kill(pid_, SIGKILL);
+    kill(own_group_ ? -pid_ : pid_, SIGKILL);
     wait();
 }
 

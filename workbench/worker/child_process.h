@@ -50,6 +50,7 @@ struct ChildSetup {
     /// errors are /dev/null otherwise; all other numbers are closed.
     std::vector<std::pair<int, int>> ends;
     std::vector<std::string> environment;  ///< "NAME=VALUE", in place of what this process has
+    bool own_group = false;  ///< signals of the terminal do not reach it; it ends with its group
 };
 
 /// Another program as a process, killed and reaped with its owner.
@@ -61,6 +62,9 @@ public:
     Child(const Child&) = delete;
     Child& operator=(const Child&) = delete;
 
+    /// The process's id.
+    [[nodiscard]] int number() const { return pid_; }
+
     /// Waits for its end. \return its status from waitpid()
     int wait();
 
@@ -69,6 +73,7 @@ public:
 
 private:
     int pid_ = -1;
+    bool own_group_ = false;
 };
 
 /// What a program left that ran to its end.

@@ -1,0 +1,65 @@
+#include "workbench/batch/case_folder.h"
+
+#include <fstream>
+
+#include "geometry/kernel/bare_name.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/pending_files.h"
+#include "workbench/batch/case_record.h"
+
+namespace vesselbench {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kRunning = "batch-running";
+
+/// \return its new place
+fs::path moved_away(const BatchFolders& folders, const std::string& name) {
+    make_folder(folders.earlier());
+    fs::path place;
+    for (int number = 1; place.empty() || fs::exists(place); ++number)
+        place = folders.earlier() / (name + "." + std::to_string(number));
+    fs::rename(folders.of(name), place);
+    return place;
+}
+
+/// In one step, without a temporary file: killed within, it would leave a folder that is not known
+/// as ours.
+void mark(const fs::path& folder) {
+    if (!std::ofstream(folder / kRunning))
+        throw IoError("'" + bare_name(folder) + "' cannot be written");
+}
+
+/// The mark last: without it, the rest would not be known as ours.
+void remove_unfinished(const fs::path& folder) {
+    for (const auto& entry : fs::directory_iterator(folder))
+        if (entry.path().filename() != kRunning) fs::remove_all(entry.path());
+    fs::remove(folder / kRunning);
+}
+
+}  // namespace
+
+fs::path begin_case(const BatchFolders& folders, const std::string& name) {
+    const fs::path folder = folders.of(name);
+    fs::path earlier;
+    if (read_record(folder))
+        earlier = moved_away(folders, name);
+    else if (fs::exists(folder / kRunning))
+        remove_unfinished(folder);
+    else if (fs::exists(folder) && !fs::is_empty(folder))
+        throw IoError("'" + name + "' in '" + bare_name(folder.parent_path()) +
+                      "' exists and is not of a batch: give another --out, or the case another "
+                      "name");
+    make_folder(folder);
+    mark(folder);
+    return earlier;
+}
+
+void end_case(const BatchFolders& folders, const std::string& name) {
+    std::error_code ignored;
+    fs::remove(folders.of(name) / kRunning, ignored);
+}
+
+}  // namespace vesselbench

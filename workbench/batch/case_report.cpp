@@ -1,0 +1,77 @@
+#include "workbench/batch/case_report.h"
+
+#include <array>
+
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/whole_file.h"
+#include "workbench/case/json_text.h"
+#include "workbench/operations/table.h"
+#include "workbench/review/entered_verdicts.h"
+#include "workbench/review/review.h"
+#include "workbench/session/session.h"
+
+namespace vesselbench {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+bool has_verdicts(const fs::path& project) {
+    return !entered_verdicts(ProjectFile::open_to_read(project, "its verdicts are listed")).empty();
+}
+
+}  // namespace
+
+std::span<const TableFigure> table_figures() {
+    static const std::array<TableFigure, 8> figures = {{
+        {"triangles", "triangles", "", "/quality/after/triangles", 0},
+        {"volume_mm3", "volume", "mm\u00B3", "/quality/after/volume", 1},
+        {"area_mm2", "area", "mm\u00B2", "/quality/after/area", 1},
+        {"openings", "openings", "", "/openings", 0},
+        {"largest_distance_to_source_mm", "largest distance to the source", "mm",
+         "/distance_to_source/largest_mm", 3},
+        {"tetrahedra", "tetrahedra", "", "/volume_mesh/cells", 0},
+        {"smallest_dihedral_deg", "smallest dihedral angle", "\u00B0",
+         "/volume_mesh/smallest_dihedral_deg", 1},
+        {"thinnest_place_mm", "thinnest place", "mm", "/print/smallest_wall_distance/distance_mm",
+         2},
+    }};
+    return figures;
+}
+
+Json read_report(const fs::path& folder) {
+    try {
+        Json report =
+            json_from_text(file_content(folder / "report.json"), "report.json", kLargestStoredJson);
+        return report.is_object() && report.contains("products") ? report : Json();
+    } catch (const IoError&) {
+        return {};
+    } catch (const InvalidInput&) {
+        return {};
+    }
+}
+
+Json figure_in(const Json& report, const TableFigure& figure) {
+    const Json::json_pointer pointer(figure.pointer);
+    if (!report.is_object() || !report.contains(pointer)) return {};
+    const Json& found = report.at(pointer);
+    if (found.is_array()) return found.size();
+    return found.is_number() ? found : Json();
+}
+
+std::string review_state(const fs::path& folder, const std::string& purpose) {
+    const fs::path project = folder / "project.vbench";
+    try {
+        if (!fs::exists(project)) return "";
+        if (!has_verdicts(project)) return "not reviewed";
+        const Session session = Session::open(project, {.find = find_operation});
+        return review_words(review_of(session, purpose));
+    } catch (const IoError&) {
+        return "open elsewhere";
+    } catch (const InvalidInput&) {
+        return "unreadable";
+    }
+}
+
+}  // namespace vesselbench

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "workbench/batch/batch_case.h"
+#include "workbench/batch/case_folder.h"
+#include "workbench/batch/case_record.h"
+
+namespace vesselbench {
+
+/// How the cases of a batch are run.
+struct BatchOptions {
+    BatchFolders folders;
+    std::string purpose;
+    CaseLimits limits;
+    std::size_t jobs = 1;  ///< cases at the same time; 0: as many as a cluster takes
+    bool retry = false;    ///< also those that have failed
+};
+
+/// A case and what is known of it.
+struct PlannedCase {
+    BatchCase what;
+    std::string key;
+    nlohmann::ordered_json files;  ///< FileDigests::json()
+    std::size_t input_bytes = 0;
+    std::optional<CaseRecord> record;  ///< of the same key: it is finished
+};
+
+/// What a result depends on: SHA-256 of the case's arguments, the contents of its files, the
+/// purpose, and the program. Where the files and the results lie does not matter.
+/// \param program its digest
+/// \param record of an earlier run: files that it knows are not read again
+[[nodiscard]] PlannedCase planned(const BatchCase& one, const BatchOptions& options,
+                                  const std::string& program);
+
+/// Those cases, in their order. \throw IoError if the program's file cannot be read
+[[nodiscard]] std::vector<PlannedCase> planned(const std::vector<BatchCase>& cases,
+                                               const BatchOptions& options);
+
+/// True for a case without a model that a person has finished in its project since.
+[[nodiscard]] bool is_finished_by_hand(const PlannedCase& one, const BatchFolders& folders);
+
+}  // namespace vesselbench
