@@ -64,10 +64,16 @@ std::string content_if_any(const fs::path& file) {
     }
 }
 
+/// The name that the case's reports have: a given one replaces those of files.
+std::string input_name(const BatchCase& one) {
+    const auto given = std::ranges::find(one.values, "name", &CaseValue::option);
+    return given == one.values.end() ? bare_name(one.input) : given->text;
+}
+
 TableRow row_of(const PlannedCase& one, const BatchOptions& options) {
     const fs::path folder = options.folders.of(one.what.name);
     TableRow row{.name = one.what.name,
-                 .input = bare_name(one.what.input),
+                 .input = input_name(one.what),
                  .state = CaseState::NotRun,
                  .review = {},
                  .warnings = {},

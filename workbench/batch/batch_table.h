@@ -21,7 +21,8 @@ enum class CaseState {
 /// A case in the table. It has neither times nor folders: equal cases give equal rows, however
 /// often, in which order and in how many processes they were run.
 struct TableRow {
-    std::string name, input;  ///< the input without its folder
+    std::string name;
+    std::string input;  ///< the name it was given (--name), or its file's without the folder
     CaseState state = CaseState::NotRun;
     std::string review;                      ///< review_state()
     std::vector<std::string> warnings;       ///< with their operations

@@ -111,10 +111,10 @@ void add_prepare(CommandLine& line) {
     add_input_argument(command, options->input);
     command.footer(prepare_footer());
     add_purpose(command, options->purpose);
+    add_case_options(command, *options);
     command.add_flag(
         "--resume", options->resume,
         "Continue in the folder's project with the edits of the recipe that are missing");
-    add_case_options(command, *options);
     command.add_option("--out", options->out, "Folder of the results; created if missing")
         ->required()
         ->type_name("FOLDER");
