@@ -4,7 +4,7 @@
   scripts/repairs.py [--only NAME]... [--quick] [--out FILE]
 
 Each section is measured by scripts/repairs_NAME.py. --only renews these sections and keeps the others as they are on the page.
---quick measures a few seeds, and prints the sections. Needs the targets bench_stamp and bench_narrowing.
+--quick measures a few seeds, and prints the sections. Needs the targets bench_stamp, bench_separate and bench_narrowing.
 """
 import importlib
 import os
@@ -12,7 +12,7 @@ import os
 import common
 import page_rows
 
-SECTIONS = ["stamp", "narrowing", "findings", "deform"]
+SECTIONS = ["stamp", "separate", "narrowing", "findings", "deform"]
 PAGE = os.path.join(common.ROOT, "docs", "repairs.md")
 HEAD = """# Repairs
 
