@@ -160,8 +160,8 @@ Attempt attempt(const Surface& surface, const SurfaceDistance& places, const Vec
 
 }  // namespace
 
-ContactZone contact_zone(const Surface& surface, const SurfaceDistance& places,
-                         const Vec3& centre) {
+ContactZone contact_zone(const Surface& surface, const SurfaceDistance& places, const Vec3& centre,
+                         double beyond) {
     const double largest = bounds(surface).diagonal();
     std::size_t most = 0;
     double reach = kFirst * mean_edge_length(surface);
@@ -171,8 +171,9 @@ ContactZone contact_zone(const Surface& surface, const SurfaceDistance& places,
         if (first.rims > kMostRims) break;
         if (!first.four) continue;
         if (reach > kFarthest * first.widest()) break;
-        for (const double margin : {1.0, 0.5}) {
-            Attempt wider = attempt(surface, places, centre, reach + margin * first.widest());
+        for (const double share : {1.0, 0.5, 0.25}) {
+            Attempt wider =
+                attempt(surface, places, centre, reach + share * beyond * first.widest());
             if (wider.four) return std::move(wider.zone);
         }
         return std::move(first.zone);

@@ -27,11 +27,12 @@ struct ContactZone {
 };
 
 /// The wall in the smallest ball around a place from which four arms leave as whole sections of one
-/// vessel each, and, as far as these stay four, beyond it by the radius of the widest.
+/// vessel each, and, as far as these stay four, some way beyond it.
 /// \param places of the surface
+/// \param beyond that ball, at most [radii of the widest arm]
 /// \throw DiagnosedFailure "contact-without-arms" with how many there are instead: a tip or a
 /// furcation is near, or there is only one vessel
 [[nodiscard]] ContactZone contact_zone(const Surface& surface, const SurfaceDistance& places,
-                                       const Vec3& centre);
+                                       const Vec3& centre, double beyond);
 
 }  // namespace vesselbench

@@ -20,9 +20,11 @@ namespace vesselbench {
 
 namespace {
 
-constexpr double kClear = 0.65;    ///< the best pairing's misfit, of the next one's, at most [-]
-constexpr double kOverlap = 0.5;   ///< tubes that enter each other more are one vessel [radii]
-constexpr double kLargest = 0.35;  ///< misfit of a pairing that is none [-]
+constexpr double kClear = 0.65;     ///< the best pairing's misfit, of the next one's, at most [-]
+constexpr double kOverlap = 0.5;    ///< tubes that enter each other more are one vessel [radii]
+constexpr double kBeyond = 1.0;     ///< zone around the contact, beyond it [radii]
+constexpr double kFarBeyond = 3.0;  ///< the same, if that is not enough [radii]
+constexpr double kLargest = 0.35;   ///< misfit of a pairing that is none [-]
 
 [[noreturn]] void refuse(const char* code, const Vec3& place, std::map<std::string, double> figures,
                          std::vector<Remedy> remedies) {
@@ -80,8 +82,8 @@ struct Found {
 };
 
 Found found_at(const Surface& surface, const SurfaceDistance& places, const Vec3& at,
-               const SeparateParameters& parameters, const Progress& progress) {
-    Found found{.zone = contact_zone(surface, places, at)};
+               const SeparateParameters& parameters, double beyond, const Progress& progress) {
+    Found found{.zone = contact_zone(surface, places, at, beyond)};
     found.twins = parameters.vessel ? named_twins(found.zone, *parameters.vessel)
                                     : decided_twins(found.zone, progress);
     found.bridge = contact_bridge(found.zone, found.twins);
@@ -91,15 +93,47 @@ Found found_at(const Surface& surface, const SurfaceDistance& places, const Vec3
 /// The contact around a place, with the ball around the middle of its bridge if there are four
 /// arms, too.
 Found found_near(const Surface& surface, const SurfaceDistance& places,
-                 const SeparateParameters& parameters, const Progress& progress) {
+                 const SeparateParameters& parameters, double beyond, const Progress& progress) {
     const auto waist = contact_at(surface, places, parameters.at);
     const Vec3 at = waist ? waist->centre : parameters.at;
-    Found found = found_at(surface, places, at, parameters, progress.part(0.0, 0.4));
+    Found found = found_at(surface, places, at, parameters, beyond, progress.part(0.0, 0.4));
     if ((found.bridge.centre - at).norm() < 0.2 * found.zone.reach) return found;
     try {
-        return found_at(surface, places, found.bridge.centre, parameters, progress.part(0.4, 0.5));
+        return found_at(surface, places, found.bridge.centre, parameters, beyond,
+                        progress.part(0.4, 0.5));
     } catch (const DiagnosedFailure&) {
         return found;  // the place that was given serves, its bridge's middle does not
+    }
+}
+
+struct Parted {
+    Found found;
+    TwinWalls walls;
+};
+
+Parted parted_within(const Surface& surface, const SurfaceDistance& places,
+                     const SeparateParameters& parameters, double beyond,
+                     const Progress& progress) {
+    progress.report(0.0, "looking for the vessels");
+    Parted parted{.found =
+                      found_near(surface, places, parameters, beyond, progress.part(0.0, 0.6))};
+    progress.report(0.6, "closing the walls");
+    parted.walls = twin_walls(parted.found.zone, parted.found.twins, parted.found.bridge,
+                              parameters.gap, progress.part(0.6, 1.0));
+    return parted;
+}
+
+/// Vessels that leave each other slowly need a wider zone.
+Parted parted_at(const Surface& surface, const SurfaceDistance& places,
+                 const SeparateParameters& parameters, const Progress& progress) {
+    try {
+        return parted_within(surface, places, parameters, kBeyond, progress.part(0.0, 0.5));
+    } catch (const DiagnosedFailure& failure) {
+        try {
+            return parted_within(surface, places, parameters, kFarBeyond, progress.part(0.5, 1.0));
+        } catch (const DiagnosedFailure&) {
+            throw failure;  // the zone was not the reason
+        }
     }
 }
 
@@ -133,18 +167,14 @@ void measure_change(const Surface& before, const Surface& after, SeparateReport&
 
 std::array<Vec3, 2> vessel_through(const Surface& surface, const SurfaceDistance& places,
                                    const SeparateParameters& parameters, const Progress& progress) {
-    return first_vessel(found_near(surface, places, parameters, progress));
+    return first_vessel(parted_at(surface, places, parameters, progress).found);
 }
 
 Separated separate(const Surface& surface, const SurfaceDistance& places,
                    const SeparateParameters& parameters, const Progress& progress) {
     require_positive("gap", parameters.gap);
     require_in_proportion("gap", parameters.gap, surface, 0.5);
-    progress.report(0.0, "looking for the vessels");
-    const Found found = found_near(surface, places, parameters, progress.part(0.0, 0.5));
-    progress.report(0.5, "closing the walls");
-    TwinWalls walls =
-        twin_walls(found.zone, found.twins, found.bridge, parameters.gap, progress.part(0.5, 0.8));
+    const auto [found, walls] = parted_at(surface, places, parameters, progress.part(0.0, 0.8));
     SeparateReport report{.centre = found.zone.centre,
                           .influence = found.zone.reach,
                           .width = found.bridge.width,

@@ -172,9 +172,8 @@ std::optional<EditedPart> receded(const Closed& closed, const Sides& sides, doub
     Positions points = part.surface.points();
     for (VertexId v = 0; v < points.size(); ++v) {
         const auto to = sides.receded(points[v], closed.own[v], slab);
-        if (!to) continue;
-        if (!to->allFinite() || (part.former[v] != kNewVertex && fixed[part.former[v]]))
-            return std::nullopt;
+        if (!to || (part.former[v] != kNewVertex && fixed[part.former[v]])) continue;
+        if (!to->allFinite()) return std::nullopt;
         points[v] = *to;
         part.former[v] = kNewVertex;
     }

@@ -1,6 +1,7 @@
 #include "meshing/stamp/separate.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -176,11 +177,13 @@ SCENARIO("A separation that cannot be had is refused", "[meshing][separate]") {
     CHECK_THROWS_AS(separate(surface, SurfaceDistance(surface),
                              {.at = Vec3::Constant(std::numeric_limits<double>::infinity())}),
                     InvalidInput);
+    using Places = std::array<Vec3, 2>;
     THEN("both places at one side name no vessel") {
-        CHECK(refusal(surface, {.at = at, .vessel = {{{8, 0, -2.5}, {7, 0, -2.5}}}}) ==
-              "contact-one-arm");
+        const Places same = {Vec3(8, 0, -2.5), Vec3(7, 0, -2.5)};
+        CHECK(refusal(surface, {.at = at, .vessel = same}) == "contact-one-arm");
     }
     THEN("places of different vessels name none either") {
-        CHECK_FALSE(refusal(surface, {.at = at, .vessel = {{{8, 0, -2.5}, {0, 8, 2.5}}}}).empty());
+        const Places different = {Vec3(8, 0, -2.5), Vec3(0, 8, 2.5)};
+        CHECK_FALSE(refusal(surface, {.at = at, .vessel = different}).empty());
     }
 }
