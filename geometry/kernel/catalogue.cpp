@@ -56,7 +56,8 @@ constexpr CatalogueText kTexts[] = {
      "than what its intensities add up to: {fix} follows them"},
     {"handle-artefact",
      "the lumen has a handle at {place}, {width_mm} mm wide and {length_mm} mm around: so small a "
-     "ring is an artefact; cleaning, or another threshold, removes it"},
+     "ring is an artefact; cleaning, or another threshold, removes it[, and {fix} parts vessels "
+     "that touch]"},
     {"handle",
      "the lumen has a handle at {place}, {width_mm} mm wide and {length_mm} mm around: if two "
      "vessels merely touch there, blood takes a path that does not exist[, and {fix} parts them]; "

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -22,7 +23,9 @@ constexpr double kEdges = 1.5;  ///< default gap without an image [mean edges]
 
 /// Where the surface has its narrowest handle.
 Vec3 place_of_handle(const Surface& surface, const Progress& progress) {
-    const auto handles = handles_of(surface, progress.silent());
+    std::vector<SurfaceHandle> handles;
+    if (connectivity(*surface.topology).genus.value_or(0) > 0)
+        handles = handles_of(surface, progress.silent());
     if (handles.empty())
         throw DiagnosedFailure({.code = "no-contact-found",
                                 .operation = "separate",

@@ -18,13 +18,11 @@ constexpr double kShortest = 8.0;
 
 Diagnostic handle_warning(const SurfaceHandle& handle) {
     const bool artefact = handle.length < kShortest * handle.width;
-    Diagnostic warning{.code = artefact ? "handle-artefact" : "handle",
-                       .place = handle.centre,
-                       .figures = {{"width_mm", handle.width}, {"length_mm", handle.length}}};
-    if (!artefact)
-        warning.remedies = {
-            {.operation = "separate", .arguments = {{"at", coordinates_argument(handle.centre)}}}};
-    return warning;
+    return {.code = artefact ? "handle-artefact" : "handle",
+            .place = handle.centre,
+            .figures = {{"width_mm", handle.width}, {"length_mm", handle.length}},
+            .remedies = {{.operation = "separate",
+                          .arguments = {{"at", coordinates_argument(handle.centre)}}}}};
 }
 
 std::vector<Diagnostic> handle_warnings(const Surface& surface, const Progress& progress) {
