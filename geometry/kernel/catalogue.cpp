@@ -168,9 +168,8 @@ constexpr CatalogueText kTexts[] = {
      "{fix2} "
      "first if the surface crosses itself"},
     {"no-contact-found",
-     "the surface has no handle, so no contact is found by itself: name the {fix} where two "
-     "vessels "
-     "touch"},
+     "the surface has no handle by which a contact could be found: give a place where two vessels "
+     "touch as {fix}"},
     {"contact-without-arms",
      "two vessels that touch leave their contact by four arms; near {place} {arms#arm leaves|arms "
      "leave} the surroundings: there is one vessel only, or a tip or a furcation is too near. Give "

@@ -8,6 +8,7 @@
 
 #include "geometry/kernel/argument_checks.h"
 #include "geometry/kernel/diagnosed_error.h"
+#include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
 #include "meshing/remeshing/local_remesh.h"
 #include "meshing/stamp/contact.h"
@@ -94,6 +95,7 @@ Found found_at(const Surface& surface, const SurfaceDistance& places, const Vec3
 /// arms, too.
 Found found_near(const Surface& surface, const SurfaceDistance& places,
                  const SeparateParameters& parameters, double beyond, const Progress& progress) {
+    if (!parameters.at.allFinite()) throw InvalidInput("the place of a contact must be finite");
     const auto waist = contact_at(surface, places, parameters.at);
     const Vec3 at = waist ? waist->centre : parameters.at;
     Found found = found_at(surface, places, at, parameters, beyond, progress.part(0.0, 0.4));

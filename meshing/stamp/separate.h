@@ -52,7 +52,7 @@ struct Separated {
 /// beside the bridge that is nearer to the other vessel than the gap recedes as well. Everything
 /// outside the report's ball keeps its bits.
 /// \param places of the surface
-/// \throw InvalidInput if the gap is not positive; DiagnosedFailure, with its place, if not four
+/// \throw InvalidInput if the gap is not positive or the place not finite; DiagnosedFailure, with its place, if not four
 ///        arms leave the contact, if they cannot be paired, if the vessels join there, if the gap
 ///        would take half of a vessel's radius, or if the result would not be sound: closed as
 ///        before, manifold, and free of new crossings; Cancelled
