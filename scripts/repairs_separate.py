@@ -83,7 +83,8 @@ def section(tool, quick, first=101):
             f"{len(lines)} of them the vessels are one surface; {long_ones} contacts are 2 to 5 diameters long, and in {rings} the vessels",
             "are joined elsewhere as well, so that the contact makes a handle. The waist is the contact's width over the thinner",
             "vessel's diameter. Beside it, what a slab by `stamp` at the same place achieves.", "",
-            "| | goal | separate | stamp |", "|---|---|---|---|", *rows(lines, stamped), ""]
+            "| | goal | separate | stamp |", "|---|---|---|---|", *rows(lines, stamped), "",
+            "The phantoms' sections are circular, as the tubes suppose; vessels' need not be. No furcation is near the contacts.", ""]
 
 
 def main():
