@@ -56,11 +56,12 @@ constexpr CatalogueText kTexts[] = {
      "than what its intensities add up to: {fix} follows them"},
     {"handle-artefact",
      "the lumen has a handle at {place}, {width_mm} mm wide and {length_mm} mm around: so small a "
-     "ring is an artefact; cleaning, or another threshold, removes it"},
+     "ring is an artefact; cleaning, or another threshold, removes it[, and {fix} parts vessels "
+     "that touch]"},
     {"handle",
      "the lumen has a handle at {place}, {width_mm} mm wide and {length_mm} mm around: if two "
-     "vessels merely touch there, blood takes a path that does not exist; a true ring of vessels, "
-     "such as the circle of Willis, stays"},
+     "vessels merely touch there, blood takes a path that does not exist[, and {fix} parts them]; "
+     "a true ring of vessels, such as the circle of Willis, stays"},
     {"many-handles",
      "the lumen has {handles#handle}: vessels touch, or noise is part of it; choose another "
      "threshold, or clean the image"},
@@ -166,6 +167,34 @@ constexpr CatalogueText kTexts[] = {
      "the stamped wall would pass through another wall near {place}: use a smaller {fix}, or "
      "{fix2} "
      "first if the surface crosses itself"},
+    {"no-contact-found",
+     "the surface has no handle by which a contact could be found: give a place where two vessels "
+     "touch as {fix}"},
+    {"contact-without-arms",
+     "two vessels that touch leave their contact by four arms; near {place} {arms#arm leaves|arms "
+     "leave} the surroundings: there is one vessel only, or a tip or a furcation is too near. Give "
+     "another {fix}, or use {fix2}"},
+    {"contact-one-arm",
+     "both places of the vessel are at its same side of the contact, near {place}: give {fix} and "
+     "{fix2} on both sides"},
+    {"contact-joins",
+     "the vessels at {place} do not touch, they join: no two tubes pass each other there; give "
+     "another {fix}"},
+    {"contact-pairing-unclear",
+     "which arms belong together at {place} cannot be told: one pairing leaves "
+     "{misfit_percent:%.0f} "
+     "% of the walls unexplained, another one {other_percent:%.0f} %; name two places of one "
+     "vessel "
+     "by {fix} and {fix2}"},
+    {"contact-not-parted",
+     "the walls at {place} cannot be told apart, or closed: the contact reaches too far along the "
+     "vessels; give another {fix}, or use {fix2}"},
+    {"separate-gap",
+     "a gap of {gap_mm} mm cannot be had near {place}: the vessels would lose more than half of "
+     "their radius, or are nearer beside the contact; {reached_mm} mm can be had[: {fix}]"},
+    {"separate-crosses",
+     "the separated wall would pass through another wall near {place}: use {fix} first if the "
+     "surface crosses itself"},
     {"brush-crosses-walls",
      "{vertices#vertex|vertices} moved less than the brush would have moved them, first near "
      "{place}: walls would have passed through each other[; {crossings#pair of triangles still "

@@ -11,6 +11,7 @@
 #include "tests/support/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
+#include "tests/support/touching_vessels.h"
 #include "tests/window/walk_support.h"
 #include "tests/window/window_support.h"
 #include "workbench/operations/table.h"
@@ -33,6 +34,7 @@ public:
         write_surface(mapped(fine_tube(1.0, 30.0, 12),
                              [](const Vec3& p) { return Vec3(p + Vec3(8.0, 0.0, 0.0)); }),
                       path("neighbour.stl"));
+        write_surface(touching_vessels(), path("contact.vtp"));
         run({"phantom", "tube", "--out", path("phantom")});
         fs::copy_file(path("phantom/image.nii.gz"), image());
         run({"phantom", "y", "--out", path("y")});
@@ -51,6 +53,8 @@ public:
                 return path("y/exact.vtp");
             case ExampleScene::Openings:
                 return path("opened.vbench");
+            case ExampleScene::Contact:
+                return path("contact.vtp");
             case ExampleScene::Image:
                 return image();
             default:
@@ -60,8 +64,11 @@ public:
 
     [[nodiscard]] std::string image() const { return path("image.nii.gz"); }
 
-    /// Places of the tube's wall, and of the phantom "y", the scene with branches.
-    [[nodiscard]] ExampleGround ground() const {
+    /// Places of the tube's wall, and of the phantom "y", the scene with branches; of vessels that
+    /// touch, the contact.
+    [[nodiscard]] ExampleGround ground(ExampleScene scene) const {
+        if (scene == ExampleScene::Contact)
+            return {.radius = kTouchingRadius, .wall = Vec3(kTouchingBridge, 0.0, 0.0)};
         return {.radius = kRadius,
                 .wall = Vec3(kRadius, 0.0, 15.0),
                 .end = Vec3(0.0, 0.0, -20.0),
@@ -150,6 +157,6 @@ SCENARIO("Every operation works from the window", "[window][operations]") {
     for (const Operation& operation : operation_table()) {
         INFO(operation.name);
         open_file(*window, files.input(operation.example.scene));
-        try_out(*window, operation, files.ground());
+        try_out(*window, operation, files.ground(operation.example.scene));
     }
 }

@@ -3,9 +3,11 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/formats/surface_file.h"
+#include "geometry/kernel/measure.h"
 #include "tests/support/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
+#include "tests/support/touching_vessels.h"
 #include "tests/window/window_support.h"
 #include "workbench/window/case/pick_target.h"
 #include "workbench/window/drawing/screen_places.h"
@@ -162,6 +164,27 @@ SCENARIO("A place on the surface is picked, not beside it", "[window][picking]")
         CHECK(shell->app().camera() == before);
         CHECK(shell->app().place().document.snapshot()->log.size() == 1);  // not painted, too
     }
+}
+
+SCENARIO("Two vessels are separated by a click on their contact", "[window][picking]") {
+    const auto shell = test_shell();
+    if (!shell) return;
+    const std::string file = temporary_folder() + "/contact.vtp";
+    write_surface(touching_vessels(), file);
+    open_and_wait(*shell, file);
+    choose(*shell, "local-repair", "separate");
+    REQUIRE(shell->click_item("field.at.pick"));
+    click_at(*shell, {0, -kTouchingBridge, 0});
+    CHECK(shell->app().place().form()->arguments().point("at").norm() < 1.2);
+    REQUIRE(shell->click_item("operation.preview"));
+    REQUIRE(wait_until_idle(*shell));
+    const auto shown = [&] { return *shell->app().place().document.shown()->surface; };
+    REQUIRE(shell->app().place().document.previewed());
+    CHECK(connectivity(*shown().topology).components == 2);
+    REQUIRE(shell->click_item("operation.apply"));
+    REQUIRE(wait_until_idle(*shell));
+    CHECK(connectivity(*shown().topology).components == 2);
+    CHECK(shell->app().place().document.snapshot()->log.size() == 2);
 }
 
 SCENARIO("A brush does not light up openings", "[window][picking]") {

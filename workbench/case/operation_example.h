@@ -13,7 +13,8 @@ enum class ExampleScene {
     Holes,     ///< a wall with holes
     Branches,  ///< a closed vessel with branches
     Openings,  ///< a vessel whose ends are opened
-    Image      ///< an image and no surface
+    Image,     ///< an image and no surface
+    Contact    ///< two vessels that are blended where they touch
 };
 
 /// A short run of an operation and its next revision, for what goes through the whole table: tests

@@ -39,6 +39,7 @@ namespace vesselbench {
     ROW(brush_weight) \
     ROW(fill_hole) \
     ROW(widen) \
+    ROW(separate) \
     ROW(stamp) \
     ROW(correct_narrowing) \
     ROW(clip_opening) \

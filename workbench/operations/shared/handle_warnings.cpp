@@ -1,6 +1,7 @@
 #include "workbench/operations/shared/handle_warnings.h"
 
 #include "geometry/kernel/measure.h"
+#include "geometry/kernel/wording.h"
 
 namespace vesselbench {
 
@@ -19,7 +20,9 @@ Diagnostic handle_warning(const SurfaceHandle& handle) {
     const bool artefact = handle.length < kShortest * handle.width;
     return {.code = artefact ? "handle-artefact" : "handle",
             .place = handle.centre,
-            .figures = {{"width_mm", handle.width}, {"length_mm", handle.length}}};
+            .figures = {{"width_mm", handle.width}, {"length_mm", handle.length}},
+            .remedies = {{.operation = "separate",
+                          .arguments = {{"at", coordinates_argument(handle.centre)}}}}};
 }
 
 std::vector<Diagnostic> handle_warnings(const Surface& surface, const Progress& progress) {

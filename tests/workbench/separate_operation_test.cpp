@@ -1,0 +1,85 @@
+#include <algorithm>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "geometry/kernel/diagnosed_error.h"
+#include "geometry/kernel/measure.h"
+#include "tests/support/shapes.h"
+#include "tests/support/touching_vessels.h"
+#include "workbench/operations/shared/handle_warnings.h"
+#include "workbench/operations/table.h"
+
+using namespace vesselbench;
+using namespace vesselbench::test;
+using Catch::Contains;
+
+namespace {
+
+Outcome separated(const Surface& surface, const Arguments& arguments) {
+    Scene scene;
+    scene.surface = surface;
+    Progress progress;
+    const Operation& operation = find_operation("separate");
+    return run_here(operation, scene, checked_arguments(operation, arguments), progress);
+}
+
+/// The vessels of touching_vessels(), joined at their ends as well: a ring through the contact.
+Surface ring() {
+    return solid_of(
+        [](const Vec3& p) {
+            return std::min({capsule(p, {-12, 0, -2.5}, {12, 0, -2.5}, kTouchingRadius),
+                             capsule(p, {0, -12, 2.5}, {0, 12, 2.5}, kTouchingRadius),
+                             capsule(p, {12, 0, -2.5}, {12, 12, 0}, kTouchingRadius),
+                             capsule(p, {12, 12, 0}, {0, 12, 2.5}, kTouchingRadius),
+                             capsule(p, {0, 0, -2}, {0, 0, 2}, kTouchingBridge)});
+        },
+        Eigen::AlignedBox3d(Vec3(-15, -15, -6), Vec3(15, 15, 6)), 0.4);
+}
+
+}  // namespace
+
+SCENARIO("separate parts two vessels at a place of their contact", "[workbench][separate]") {
+    const Surface before = touching_vessels(0.35);
+    const Outcome outcome = separated(before, {{"at", Vec3(0.8, 0, 0)}, {"gap", 0.5}});
+    CHECK(outcome.report->at("components_after") == 2);
+    CHECK(outcome.report->at("gap_mm").get<double>() >= 0.5);
+    CHECK(outcome.report->at("waist").get<double>() == Approx(0.4).epsilon(0.2));
+    THEN("its decisions, given, make the same surface") {
+        CHECK(outcome.resolved.has("side_a"));
+        const Outcome again = separated(before, outcome.resolved);
+        CHECK(again.scene.surface->points() == outcome.scene.surface->points());
+    }
+}
+
+SCENARIO("separate finds a contact by the handle that it makes", "[workbench][separate]") {
+    const Surface before = ring();
+    REQUIRE(connectivity(*before.topology).genus == 1);
+    const Outcome outcome = separated(before, {});
+    CHECK(outcome.resolved.point("at").norm() < 1.5);
+    CHECK(outcome.resolved.real("gap") == Approx(1.5 * mean_edge_length(before)));
+    CHECK(outcome.report->at("genus_before") == 1);
+    CHECK(outcome.report->at("genus_after") == 0);
+    CHECK(outcome.report->at("components_after") == 1);
+    THEN("the warning about the handle offers it") {
+        const auto warnings = handle_warnings(before, Progress());
+        REQUIRE(warnings.size() == 1);
+        REQUIRE(warnings[0].remedies.size() == 1);
+        CHECK(warnings[0].remedies[0].operation == "separate");
+    }
+    THEN("what it would decide is known before it runs") {
+        Scene scene;
+        scene.surface = before;
+        const Operation& operation = find_operation("separate");
+        CHECK(operation.decided(scene, checked_arguments(operation, {}), Progress()).values() ==
+              outcome.resolved.values());
+    }
+}
+
+SCENARIO("separate without a contact says so", "[workbench][separate]") {
+    const Surface tube = fine_tube(4.0, 30.0, 24);
+    CHECK_THROWS_WITH(separated(tube, {}), Contains("no handle"));
+    CHECK_THROWS_WITH(separated(tube, {{"at", Vec3(4, 0, 15)}}), Contains("arms"));
+    CHECK_THROWS_WITH(separated(tube, {{"at", Vec3(4, 0, 15)}, {"side_a", Vec3(0, 0, 1)}}),
+                      Contains("both side_a and side_b"));
+}

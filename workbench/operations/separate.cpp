@@ -1,0 +1,146 @@
+#include "meshing/stamp/separate.h"
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "geometry/kernel/diagnosed_error.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/handles.h"
+#include "geometry/kernel/measure.h"
+#include "workbench/case/point_json.h"
+#include "workbench/operations/table.h"
+
+namespace vesselbench {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kEdges = 1.5;  ///< default gap without an image [mean edges]
+
+/// Where the surface has its narrowest handle.
+Vec3 place_of_handle(const Surface& surface, const Progress& progress) {
+    std::vector<SurfaceHandle> handles;
+    if (connectivity(*surface.topology).genus.value_or(0) > 0)
+        handles = handles_of(surface, progress.silent());
+    if (handles.empty())
+        throw DiagnosedFailure({.code = "no-contact-found",
+                                .operation = "separate",
+                                .remedies = {{.arguments = {{"at", ""}}}}});
+    return handles.front().centre;
+}
+
+double default_gap(const Scene& scene) {
+    return scene.sampling ? scene.sampling->spacing.maxCoeff()
+                          : kEdges * mean_edge_length(surface_of(scene));
+}
+
+/// Sets the place and the gap that are left out.
+void resolve(const Scene& scene, const Progress& progress, Arguments& arguments) {
+    if (arguments.has("side_a") != arguments.has("side_b"))
+        throw UsageError("separate: give both side_a and side_b, or neither");
+    if (!arguments.has("at")) arguments.set("at", place_of_handle(surface_of(scene), progress));
+    if (!arguments.has("gap")) arguments.set("gap", default_gap(scene));
+}
+
+SeparateParameters parameters_from(const Arguments& resolved) {
+    SeparateParameters parameters{.at = resolved.point("at"), .gap = resolved.real("gap")};
+    if (resolved.has("side_a"))
+        parameters.vessel = {resolved.point("side_a"), resolved.point("side_b")};
+    return parameters;
+}
+
+void set_vessel(Arguments& arguments, const std::array<Vec3, 2>& vessel) {
+    if (arguments.has("side_a")) return;
+    arguments.set("side_a", vessel[0]);
+    arguments.set("side_b", vessel[1]);
+}
+
+Json report_json(const SeparateReport& figures) {
+    return {{"contact_mm", point_json(figures.centre)},
+            {"contact_width_mm", figures.width},
+            {"contact_length_mm", figures.length},
+            {"waist", figures.waist},
+            {"gap_mm", figures.gap},
+            {"largest_mm", figures.farthest},
+            {"influence_mm", figures.influence},
+            {"radius_a_mm", figures.radii[0]},
+            {"radius_b_mm", figures.radii[1]},
+            {"triangles_replaced", figures.replaced},
+            {"triangles_new", figures.replacement},
+            {"components_before", figures.components_before},
+            {"components_after", figures.components_after},
+            {"genus_before", figures.genus_before},
+            {"genus_after", figures.genus_after}};
+}
+
+Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) {
+    const Surface& surface = surface_of(scene);
+    Outcome outcome;
+    outcome.resolved = arguments;
+    resolve(scene, progress, outcome.resolved);
+    Separated separated =
+        separate(surface, distance_to(surface), parameters_from(outcome.resolved), progress);
+    set_vessel(outcome.resolved, separated.report.vessel);
+    outcome.report = std::make_shared<Json>(report_json(separated.report));
+    outcome.scene = with_surface(scene, std::move(separated.surface));
+    return outcome;
+}
+
+Arguments decided(const Scene& scene, const CheckedArguments& arguments, const Progress& progress) {
+    const Surface& surface = surface_of(scene);
+    Arguments found = arguments;
+    resolve(scene, progress, found);
+    if (!found.has("side_a"))
+        set_vessel(found,
+                   vessel_through(surface, distance_to(surface), parameters_from(found), progress));
+    return found;
+}
+
+}  // namespace
+
+Operation separate_operation() {
+    using enum ParameterType;
+    return {
+        .name = "separate",
+        .usual_step = Step::LocalRepair,
+        .allowed = {Step::Source, Step::Branches, Step::LocalRepair, Step::Openings,
+                    Step::Smoothing, Step::Deformation},
+        .summary = "make two vessels of two that are blended where they touch",
+        .parameters =
+            {{.name = "at",
+              .type = Point,
+              .unit = "mm",
+              .help = "a place at the contact, on its wall or inside; default: the narrowest "
+                      "handle of the surface",
+              .meaning = Meaning::Place},
+             {.name = "gap",
+              .unit = "mm",
+              .help = "least distance between both walls afterwards; default: the longest edge of "
+                      "the image's voxels, or one and a half edges of the triangles",
+              .minimum = 0.0,
+              .above_minimum = true},
+             {.name = "side_a",
+              .type = Point,
+              .unit = "mm",
+              .help = "a place of one of the vessels, on one side of the contact: says, together "
+                      "with side_b, which parts belong together; default: those whose walls "
+                      "continue each other",
+              .meaning = Meaning::Place,
+              .use = Use::Rare},
+             {.name = "side_b",
+              .type = Point,
+              .unit = "mm",
+              .help = "a place of the same vessel on the contact's other side",
+              .meaning = Meaning::Place,
+              .use = Use::Rare}},
+        .run = &run,
+        .decided = &decided,
+        .thesis = "4.2.5",
+        .example = {.scene = ExampleScene::Contact, .placed = {"at"}, .changed = {{"gap", 0.25}}}};
+}
+
+}  // namespace vesselbench
