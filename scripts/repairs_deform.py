@@ -3,7 +3,8 @@
 
   scripts/repairs_deform.py [--quick] [--build]
 
-Prints the section of docs/repairs.md. --quick: 8 seeds of each in place of 100. --build: seeds from 1, with which the operations
+Prints the section of docs/science/repairs.md. --quick: 8 seeds of each in place of 100. --build: seeds from 1, with which the
+operations
 were built, in place of those from 101, on which they are reported. Runs bench_posing, which scripts/build makes
 (scripts/build bench_posing). Exit code 1 if a goal is missed.
 """
@@ -65,9 +66,11 @@ def gap_rows(rows):
     narrow = [row for row in rows if row["print_gap_before_mm"] < 1.0]
     before = [row["print_gap_before_mm"] for row in narrow]
     return [
-        ["smallest gap without the operation (baseline)", "", f"{min(before, default=0.0):.2f} to {max(before, default=0.0):.2f} mm"],
+        ["smallest gap without the operation (baseline)", "",
+         f"{min(before, default=0.0):.2f} to {max(before, default=0.0):.2f} mm"],
         ["every gap 1 mm by the print check, or a clear no with its place", "all",
-         f"{share(rows, lambda row: row['done'] and row['print_gap_mm'] >= 1.0)} reached, {share(rows, refused_clearly)} refused"],
+         f"{share(rows, lambda row: row['done'] and row['print_gap_mm'] >= 1.0)} reached, "
+         f"{share(rows, refused_clearly)} refused"],
         *common_rows(done),
         ["largest shift of a wall", "", largest(done, "largest_shift_mm", 1.0, "%.2f mm")],
         ["processor time of all threads without centerlines, largest", "5 s", largest(rows, "cpu_seconds", 1.0, "%.2f s")],
@@ -84,9 +87,9 @@ def met(rows):
 
 PARTS = [
     ("deform", "`deform-branch`",
-     "![An outlet of the bundled case, as it was and moved](pictures/deform-branch.png)", deform_rows),
+     "![An outlet of the bundled case, as it was and moved](../pictures/deform-branch.png)", deform_rows),
     ("gap", "`part-branches` with a gap of 1 mm",
-     "![The branches of the bundled case, as they were and 1 mm apart](pictures/part-branches.png)", gap_rows),
+     "![The branches of the bundled case, as they were and 1 mm apart](../pictures/part-branches.png)", gap_rows),
 ]
 
 
@@ -97,10 +100,12 @@ def measured(quick, first):
 
 def lines_of(results, first):
     lines = ["## Branches that are moved (`deform-branch`, `part-branches`)", "",
-             f"Seeds from {first}; vessels whose own walls cross are left out, {len(results['deform'])} and {len(results['gap'])} are left.",
-             "The vessels have radii of 1 to 2.5 mm, and triangles of a quarter of that. `deform-branch` moves a place of a curved tube",
-             "or of a branch by 0.5 to 3 radii, straightens bows, and must refuse loops. `part-branches` finds two branches that",
-             "approach each other, one that winds around another, two side by side, or two that join again, which cannot be parted.",
+             f"Seeds from {first}; vessels whose own walls cross are left out, {len(results['deform'])} and "
+             f"{len(results['gap'])} are left.",
+             "The vessels have radii of 1 to 2.5 mm, and triangles of a quarter of that. `deform-branch` moves a place of a",
+             "curved tube or of a branch by 0.5 to 3 radii, straightens bows, and must refuse loops. `part-branches` finds two",
+             "branches that approach each other, one that winds around another, two side by side, or two that join again,",
+             "which cannot be parted.",
              "A section's radius is that of the circle of its area, across the axis before and after.", ""]
     for what, title, picture, rows in PARTS:
         lines += [f"### {title}", "", picture, "",

@@ -3,8 +3,8 @@
 
   scripts/repairs_separate.py [--quick] [--build]
 
-Prints the section of docs/repairs.md. --quick: 20 phantoms in place of 100. --build: seeds 1-100, with which the operation was
-built, in place of 101-200, on which it is reported. Runs bench_separate, which scripts/build makes (scripts/build bench_separate).
+Prints the section of docs/science/repairs.md. --quick: 20 phantoms in place of 100. --build: seeds 1-100, with which the
+operation was built, in place of 101-200, on which it is reported. Runs bench_separate, which scripts/build makes.
 """
 import collections
 import json
@@ -78,13 +78,14 @@ def section(tool, quick, first=101):
     long_ones = sum(line["diameters"] > 0.0 for line in lines)
     rings = sum(line["ring"] for line in lines)
     return ["## separate", "",
-            f"Seeds {first}-{last}: images of two vessels with radii of 3 to 6 voxels that pass each other at 0.1 to 1.6 voxels, with",
-            "blur, noise, and contrast between them, extracted at one threshold (tests/bench/touching_phantoms.h). In",
-            f"{len(lines)} of them the vessels are one surface; {long_ones} contacts are 2 to 5 diameters long, and in {rings} the vessels",
-            "are joined elsewhere as well, so that the contact makes a handle. The waist is the contact's width over the thinner",
-            "vessel's diameter. Beside it, what a slab by `stamp` at the same place achieves.", "",
+            f"Seeds {first}-{last}: images of two vessels with radii of 3 to 6 voxels that pass each other at 0.1 to 1.6 voxels,",
+            "with blur, noise, and contrast between them, extracted at one threshold (tests/bench/touching_phantoms.h). In",
+            f"{len(lines)} of them the vessels are one surface; {long_ones} contacts are 2 to 5 diameters long, and in {rings}",
+            "the vessels are joined elsewhere as well, so that the contact makes a handle. The waist is the contact's width over",
+            "the thinner vessel's diameter. Beside it, what a slab by `stamp` at the same place achieves.", "",
             "| | goal | separate | stamp |", "|---|---|---|---|", *rows(lines, stamped), "",
-            "The phantoms' sections are circular, as the tubes suppose; vessels' need not be. No furcation is near the contacts.", ""]
+            "The phantoms' sections are circular, as the tubes suppose; vessels' need not be. No furcation is near the contacts.",
+            ""]
 
 
 def main():
