@@ -50,7 +50,7 @@ def task_of(name, out):
             words = (process / "cmdline").read_bytes().decode(errors="replace").split("\0")
         except OSError:
             continue
-        if "batch" in words and words[-3:-1] == ["--task", name] and str(out) in words:
+        if "batch" in words and f"--task={name}" in words and str(out) in words:
             return int(process.name)
     return None
 

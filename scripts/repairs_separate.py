@@ -78,6 +78,9 @@ def section(tool, quick, first=101):
     long_ones = sum(line["diameters"] > 0.0 for line in lines)
     rings = sum(line["ring"] for line in lines)
     return ["## separate", "",
+            "![The bundled case's outlets from its image at a threshold of 400, as extracted and separated]"
+            "(../pictures/separate.png)",
+            "",
             f"Seeds {first}-{last}: images of two vessels with radii of 3 to 6 voxels that pass each other at 0.1 to 1.6 voxels,",
             "with blur, noise, and contrast between them, extracted at one threshold (tests/bench/touching_phantoms.h). In",
             f"{len(lines)} of them the vessels are one surface; {long_ones} contacts are 2 to 5 diameters long, and in {rings}",

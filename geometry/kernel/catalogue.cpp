@@ -191,7 +191,7 @@ constexpr CatalogueText kTexts[] = {
      "vessels; give another {fix}, or use {fix2}"},
     {"separate-gap",
      "a gap of {gap_mm} mm cannot be had near {place}: the vessels would lose more than half of "
-     "their radius, or are nearer beside the contact; {reached_mm} mm can be had[: {fix}]"},
+     "their radius, or are nearer beside the contact[; {reached_mm} mm can be had: {fix}]"},
     {"separate-crosses",
      "the separated wall would pass through another wall near {place}: use {fix} first if the "
      "surface crosses itself"},

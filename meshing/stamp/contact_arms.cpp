@@ -146,6 +146,8 @@ Attempt attempt(const Surface& surface, const SurfaceDistance& places, const Vec
     close_fans(surface, piece);
     made.zone.part = part_of(surface, piece);
     made.zone.marked = std::move(piece);
+    const Connectivity part = connectivity(*made.zone.part.surface.topology);
+    if (!part.manifold || !part.oriented) return made;  // its rims are no loops
     const auto rims = made.zone.part.surface.topology->boundary_loops();
     made.rims = rims.size();
     if (rims.size() != made.zone.arms.size()) return made;

@@ -141,6 +141,8 @@ void complete(const ContactZone& zone, const TwinTubes& twins, ContactBridge& br
     if (root[arms[0][0]] != root[arms[0][1]] || root[arms[1][0]] != root[arms[1][1]] ||
         root[arms[0][0]] == root[arms[1][0]])
         refuse(bridge.centre);
+    for (std::uint8_t vessel = 0; vessel < 2; ++vessel)
+        if (bridge.own[zone.arms[arms[vessel][0]].rim.front()] != vessel) refuse(bridge.centre);
 }
 
 /// Extent of the bridge's middle line along and across the vessels.

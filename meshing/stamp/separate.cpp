@@ -1,8 +1,10 @@
 #include "meshing/stamp/separate.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <limits>
+#include <cstdint>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -63,7 +65,8 @@ TwinTubes decided_twins(const ContactZone& zone, const Progress& progress) {
     for (const std::size_t partner : {1, 2, 3}) {
         progress.check_cancelled();
         TwinTubes twins = twin_tubes(zone, partner);
-        if (twins.overlap < kOverlap) possible.push_back(std::move(twins));
+        if (twins.overlap < kOverlap && std::isfinite(twins.misfit))
+            possible.push_back(std::move(twins));
     }
     std::ranges::sort(possible, {}, &TwinTubes::misfit);
     if (possible.empty() || possible[0].misfit > kLargest) refuse_joined(zone);
@@ -116,6 +119,8 @@ struct Parted {
 Parted parted_within(const Surface& surface, const SurfaceDistance& places,
                      const SeparateParameters& parameters, double beyond,
                      const Progress& progress) {
+    require_positive("gap", parameters.gap);
+    require_in_proportion("gap", parameters.gap, surface, 0.5);
     progress.report(0.0, "looking for the vessels");
     Parted parted{.found =
                       found_near(surface, places, parameters, beyond, progress.part(0.0, 0.6))};
@@ -174,8 +179,6 @@ std::array<Vec3, 2> vessel_through(const Surface& surface, const SurfaceDistance
 
 Separated separate(const Surface& surface, const SurfaceDistance& places,
                    const SeparateParameters& parameters, const Progress& progress) {
-    require_positive("gap", parameters.gap);
-    require_in_proportion("gap", parameters.gap, surface, 0.5);
     const auto [found, walls] = parted_at(surface, places, parameters, progress.part(0.0, 0.8));
     SeparateReport report{.centre = found.zone.centre,
                           .influence = found.zone.reach,

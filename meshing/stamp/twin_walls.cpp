@@ -213,6 +213,7 @@ TwinWalls twin_walls(const ContactZone& zone, const TwinTubes& twins, ContactBri
         }
         slab += kOvershoot * (gap - nearest.distance);
     }
+    if (reached <= 0.0) refuse("separate-gap", narrow, {{"gap_mm", gap}}, {});
     refuse("separate-gap", narrow, {{"gap_mm", gap}, {"reached_mm", reached}},
            {{.arguments = {{"gap", formatted(0.9 * reached, "%.2g")}}}});
 }

@@ -10,6 +10,7 @@
 #include "geometry/kernel/errors.h"
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
+#include "workbench/batch/plan.h"
 #include "workbench/case/csv_text.h"
 
 using namespace vesselbench;
@@ -107,6 +108,34 @@ SCENARIO("A row of a manifest becomes the arguments of prepare", "[workbench][ba
     }
 }
 
+SCENARIO("What a row says goes before what all cases are given", "[workbench][batch]") {
+    CaseColumns columns = kColumns;
+    columns.shared = {{.option = "accept-doubts", .text = {}, .is_flag = true},
+                      {.option = "units", .text = "cm"},
+                      {.option = "name", .text = {}}};
+    CHECK(options_in("input,accept-doubts,units\na.stl,no,mm\n", columns) ==
+          Names{"--name=", "--units=mm"});
+    CHECK(options_in("input,accept-doubts,units\na.stl,,\n", columns) ==
+          Names{"--accept-doubts", "--units=cm", "--name="});
+}
+
+SCENARIO("Other voxels beside the same header make another case", "[workbench][batch]") {
+    const std::string folder = temporary_folder();
+    const BatchOptions options{.folders = {folder + "/out"}, .purpose = "cfd", .limits = {}};
+    const auto key_of = [&](const std::string& header) {
+        return planned({.name = "a", .input = folder + "/" + header}, options, "program").key;
+    };
+    write_text(folder + "/a.mhd", "NDims = 3\nElementDataFile = a.raw\n");
+    write_text(folder + "/a.nhdr", "NRRD0004\ndata file: a.raw\n");
+    for (const char* header : {"a.mhd", "a.nhdr"}) {
+        write_text(folder + "/a.raw", "1");
+        const std::string key = key_of(header);
+        CHECK(key_of(header) == key);
+        write_text(folder + "/a.raw", "2");
+        CHECK(key_of(header) != key);
+    }
+}
+
 SCENARIO("A wrong manifest is refused with line and column", "[workbench][batch]") {
     const auto [text, words] = GENERATE(table<std::string, std::string>(
         {{"", "it is empty"},
@@ -114,6 +143,7 @@ SCENARIO("A wrong manifest is refused with line and column", "[workbench][batch]
          {"mask\na.nrrd\n", "line 1: there is no column 'input'"},
          {"input,inlett\na.stl,1\n", "line 1: there is no column 'inlett'; did you mean 'inlet'"},
          {"input,smooth.iteration\na,1\n", "did you mean 'smooth.iterations'"},
+         {"input,load-neighbour.file\na,b.stl\n", "there is no column 'load-neighbour.file'"},
          {"input,out\na.stl,b\n", "line 1: there is no column 'out'"},
          {"input;units\na.stl;mm\n", "fields are separated by commas"},
          {"input,units,units\na,mm,mm\n", "line 1: there are two columns 'units'"},

@@ -5,6 +5,8 @@
 
 #include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/measure.h"
+#include "tests/support/paths.h"
+#include "tests/support/program.h"
 #include "tests/support/shapes.h"
 #include "tests/support/touching_vessels.h"
 #include "workbench/operations/shared/handle_warnings.h"
@@ -74,6 +76,29 @@ SCENARIO("separate finds a contact by the handle that it makes", "[workbench][se
         CHECK(operation.decided(scene, checked_arguments(operation, {}), Progress()).values() ==
               outcome.resolved.values());
     }
+}
+
+SCENARIO("The bundled case's image alone becomes two outlets of one vessel",
+         "[workbench][separate]") {
+    const std::string folder = temporary_folder(), project = folder + "/p.vbench";
+    const auto run = [&](const std::vector<std::string>& words) {
+        const ProgramRun made = run_program(program_path(), words);
+        INFO(made.err);
+        REQUIRE(made.exit_code == 0);
+        return made.out;
+    };
+    run({"phantom", "aneurysm", "--out", folder});
+    run({"new", project, folder + "/image.nii.gz"});
+    run({"apply", project, "extract-surface", "threshold=400"});
+    const auto parted = nlohmann::json::parse(run({"apply", project, "separate", "--json"}));
+    CHECK(parted["report"]["genus_before"] == 1);
+    CHECK(parted["report"]["genus_after"] == 0);
+    run({"apply", project, "remove-branch", "tip=0,5.6,8.2"});
+    run({"apply", project, "remove-branch", "tip=2.4,-6,41.2"});
+    const auto opened = nlohmann::json::parse(run({"apply", project, "clip-opening", "--json"}));
+    std::vector<std::string> names;
+    for (const auto& opening : opened["resolved"]["names"]) names.push_back(opening["name"]);
+    CHECK(names == std::vector<std::string>{"inlet", "outlet_1", "outlet_2"});
 }
 
 SCENARIO("separate without a contact says so", "[workbench][separate]") {

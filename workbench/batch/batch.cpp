@@ -1,5 +1,8 @@
 #include "workbench/batch/batch.h"
 
+#include <filesystem>
+#include <memory>
+
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/pending_files.h"
 #include "geometry/kernel/whole_file.h"
@@ -41,8 +44,11 @@ BatchResult run_batch(const std::vector<BatchCase>& cases, const BatchOptions& o
     std::vector<PlannedCase> plans = planned(cases, options);
     try {
         engine(plans);
-    } catch (const Cancelled&) {
-        static_cast<void>(written_table(plans, options));
+    } catch (...) {
+        try {
+            static_cast<void>(written_table(plans, options));
+        } catch (const IoError&) {  // what stopped the batch says more
+        }
         throw;
     }
     BatchTable table = written_table(plans, options);

@@ -6,8 +6,7 @@ std::vector<std::string> prepare_arguments(const BatchCase& one, const std::stri
                                            const std::filesystem::path& out) {
     std::vector<std::string> arguments = {"prepare", one.input,    "--for", purpose,
                                           "--out",   out.string(), "--json"};
-    for (const CaseValue& value : one.values)  // "=": a value may begin with a dash
-        arguments.push_back("--" + value.option + (value.text.empty() ? "" : "=" + value.text));
+    for (const CaseValue& value : one.values) arguments.push_back(value.argument());
     return arguments;
 }
 

@@ -20,6 +20,12 @@ struct CaseValue {
     std::string option;  ///< name of the CaseOption
     std::string text;    ///< empty for flags
     bool is_file = false;
+    bool is_flag = false;
+
+    /// As an argument of the program. "=": a value may be empty, or begin with a dash.
+    [[nodiscard]] std::string argument() const {
+        return "--" + option + (is_flag ? "" : "=" + text);
+    }
 };
 
 /// A case of a batch: a run of `prepare`.

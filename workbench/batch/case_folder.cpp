@@ -6,6 +6,9 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/pending_files.h"
 #include "workbench/batch/case_record.h"
+#include "workbench/batch/case_report.h"
+#include "workbench/prepare/case_files.h"
+#include "workbench/project/file_lock.h"
 
 namespace vesselbench {
 
@@ -39,14 +42,26 @@ void remove_unfinished(const fs::path& folder) {
     fs::remove(folder / kRunning);
 }
 
+/// So that no window or command has the project that is moved away.
+/// \throw IoError if one has; no lock where there is no project
+FileLock::Attempt project_lock(const fs::path& folder) {
+    if (!fs::exists(folder / kProjectFile)) return {};
+    FileLock::Attempt attempt = FileLock::acquire(folder / kProjectFile);
+    if (attempt.lock == nullptr)
+        throw IoError("'" + bare_name(folder) + "' cannot be prepared again: " + attempt.reason);
+    return attempt;
+}
+
 }  // namespace
 
 fs::path begin_case(const BatchFolders& folders, const std::string& name) {
     const fs::path folder = folders.of(name);
     fs::path earlier;
-    if (read_record(folder))
-        earlier = moved_away(folders, name);
-    else if (fs::exists(folder / kRunning))
+    const FileLock::Attempt writing = project_lock(folder);
+    const bool is_ours = fs::exists(folder / kRunning);
+    if (read_record(folder) || (is_ours && !read_report(folder).is_null()))
+        earlier = moved_away(folders, name);  // a person may have finished what was killed
+    else if (is_ours)
         remove_unfinished(folder);
     else if (fs::exists(folder) && !fs::is_empty(folder))
         throw IoError("'" + name + "' in '" + bare_name(folder.parent_path()) +

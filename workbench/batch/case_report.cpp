@@ -69,7 +69,9 @@ std::string review_state(const fs::path& folder, const std::string& purpose) {
         return review_words(review_of(session, purpose));
     } catch (const IoError&) {
         return "open elsewhere";
-    } catch (const InvalidInput&) {
+    } catch (const Cancelled&) {
+        throw;
+    } catch (const std::exception&) {  // whatever a project from elsewhere holds
         return "unreadable";
     }
 }

@@ -7,7 +7,7 @@
 
 namespace vesselbench {
 
-/// SHA-256 of files and folders. What has kept its names, sizes and times since an earlier batch is
+/// SHA-256 of files and folders. What has kept its path, size and time since an earlier batch is
 /// not read again.
 class FileDigests {
 public:

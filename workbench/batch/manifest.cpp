@@ -45,15 +45,18 @@ std::string shown(const std::string& text) {
     return "'" + shortened(printable(text)) + "'";
 }
 
-/// "operation.parameter" of every operation, and of the flow.
+/// "operation.parameter" of every operation, and of the flow, but for files: these have columns of
+/// their own, or belong into a recipe.
 const std::set<std::string>& known_settings() {
     static const std::set<std::string> names = [] {
         std::set<std::string> all;
+        const auto add = [&](const std::string& of, const std::vector<Parameter>& parameters) {
+            for (const Parameter& parameter : parameters)
+                if (parameter.type != ParameterType::File) all.insert(of + "." + parameter.name);
+        };
         for (const Operation& operation : operation_table())
-            for (const Parameter& parameter : operation.parameters)
-                all.insert(operation.name + "." + parameter.name);
-        for (const Parameter& parameter : flow_parameters())
-            all.insert("openfoam." + parameter.name);
+            add(operation.name, operation.parameters);
+        add("openfoam", flow_parameters());
         return all;
     }();
     return names;
@@ -132,7 +135,7 @@ private:
         for (std::size_t i = 0; i < header_.size(); ++i)
             if (!record.fields[i].empty()) add(one, header_[i], record.fields[i]);
         if (one.input.empty()) throw InvalidInput(line_text(record.line) + "it has no input");
-        add_shared(one);
+        add_shared(one, record.fields);
         if (one.name.empty()) one.name = case_name_of(one.input);
         refuse_name(one);
         return one;
@@ -158,7 +161,8 @@ private:
         if (word != "yes" && word != "no")
             throw InvalidInput(line_text(one.line) + option.name + " must be yes or no, not " +
                                shown(text));
-        if (word == "yes") one.values.push_back({option.name, ""});
+        if (word == "yes")
+            one.values.push_back({.option = option.name, .text = {}, .is_flag = true});
     }
 
     void add_value(BatchCase& one, const CaseOption& option, const std::string& text) const {
@@ -167,12 +171,16 @@ private:
     }
 
     /// What all cases are given comes first: of settings, the last one counts.
-    void add_shared(BatchCase& one) const {
+    void add_shared(BatchCase& one, const std::vector<std::string>& fields) const {
+        const auto has_own = [&](const std::string& option) {
+            for (std::size_t i = 0; i < header_.size(); ++i)
+                if (header_[i].option && header_[i].name == option && !fields[i].empty())
+                    return true;  // also where it is "no"
+            return false;
+        };
         std::vector<CaseValue> values;
         for (const CaseValue& value : columns_.shared)
-            if (value.option == kSettings ||
-                std::ranges::find(one.values, value.option, &CaseValue::option) == one.values.end())
-                values.push_back(value);
+            if (value.option == kSettings || !has_own(value.option)) values.push_back(value);
         one.values.insert(one.values.begin(), values.begin(), values.end());
     }
 

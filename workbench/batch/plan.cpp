@@ -1,8 +1,11 @@
 #include "workbench/batch/plan.h"
 
 #include <algorithm>
+#include <fstream>
 
+#include "geometry/formats/format.h"
 #include "geometry/kernel/bare_name.h"
+#include "geometry/kernel/wording.h"
 #include "workbench/batch/case_report.h"
 #include "workbench/batch/file_digests.h"
 #include "workbench/case/json_text.h"
@@ -22,6 +25,26 @@ fs::path file_of_input(const std::string& input) {
     return bundled.empty() ? fs::path(input) : bundled;
 }
 
+/// The file with the voxels that the header of an image names; empty: it has them itself.
+fs::path detached_voxels(const fs::path& image) {
+    const std::string suffix = lower_suffix(image.string());
+    if (suffix != ".mhd" && suffix != ".nhdr" && suffix != ".nrrd" && suffix != ".mha") return {};
+    constexpr int kMostLines = 200;
+    std::ifstream header(image);
+    std::string line;
+    for (int i = 0; i < kMostLines && std::getline(header, line) && !line.empty(); ++i) {
+        const std::size_t at = line.find_first_of("=:");
+        std::string key = lower_case(line.substr(0, at));
+        std::erase(key, ' ');
+        if (at == std::string::npos || (key != "elementdatafile" && key != "datafile")) continue;
+        std::string name = line.substr(at + 1);
+        name.erase(0, name.find_first_not_of(" \t"));
+        name.erase(name.find_last_not_of(" \t\r") + 1);
+        return lower_case(name) == "local" ? fs::path() : image.parent_path() / name;
+    }
+    return {};
+}
+
 std::size_t bytes_of(const fs::path& path) {
     std::error_code error;
     if (!fs::is_directory(path, error)) {
@@ -34,39 +57,47 @@ std::size_t bytes_of(const fs::path& path) {
     return sum;
 }
 
-/// Limits count for what failed by them alone.
-bool is_current(const CaseRecord& record, const std::string& key, const CaseLimits& limits) {
-    if (record.key != key) return false;
-    if (!record.failure || record.limits == limits) return true;
-    return record.failure->code != "time-limit" && record.failure->code != "memory-limit";
+bool is_by_limit(const CaseFailure& failure) {
+    return failure.code == "time-limit" || failure.code == "memory-limit";
 }
 
 }  // namespace
+
+bool is_current(const CaseRecord& record, const PlannedCase& one, const BatchOptions& options) {
+    if (record.key != one.key) return false;
+    const bool has_report = !read_report(options.folders.of(one.what.name)).is_null();
+    if (options.retry && !has_report) return false;
+    if (!record.failure || (options.retry && has_report)) return true;
+    return record.limits == options.limits || !is_by_limit(*record.failure);
+}
 
 PlannedCase planned(const BatchCase& one, const BatchOptions& options, const std::string& program) {
     std::optional<CaseRecord> record = read_record(options.folders.of(one.name));
     FileDigests digests(record ? record->files : Json());
     const fs::path input = file_of_input(one.input);
+    const auto digest = [&](const fs::path& file) {
+        std::string all = digests.next(file);
+        if (const fs::path voxels = detached_voxels(file); !voxels.empty())
+            all += " " + digests.next(voxels);
+        return all;
+    };
     Json values = Json::array();
     for (const CaseValue& value : one.values)
         if (value.is_file)
-            values.push_back({value.option, bare_name(value.text), digests.next(value.text)});
+            values.push_back({value.option, bare_name(value.text), digest(value.text)});
         else
             values.push_back({value.option, value.text});
     const Json all = {{"program", program},
                       {"purpose", options.purpose},
                       {"name", bare_name(one.input)},
-                      {"input", digests.next(input)},
+                      {"input", digest(input)},
                       {"values", values}};
     PlannedCase plan{.what = one,
                      .key = hash_of_text(text_from_json(all)),
                      .files = digests.json(),
-                     .input_bytes = bytes_of(input),
+                     .input_bytes = bytes_of(input) + bytes_of(detached_voxels(input)),
                      .record = {}};
-    if (record && is_current(*record, plan.key, options.limits)) plan.record = std::move(record);
-    if (options.retry && plan.record && plan.record->failure &&
-        !is_finished_by_hand(plan, options.folders))
-        plan.record.reset();
+    if (record && is_current(*record, plan, options)) plan.record = std::move(record);
     return plan;
 }
 

@@ -31,6 +31,12 @@ struct PlannedCase {
     std::optional<CaseRecord> record;  ///< of the same key: it is finished
 };
 
+/// True if a record is of this case and need not be made again: limits count for what failed by
+/// them alone, and with `retry` what failed or lost its report is made again, but for what a person
+/// has finished since.
+[[nodiscard]] bool is_current(const CaseRecord& record, const PlannedCase& one,
+                              const BatchOptions& options);
+
 /// What a result depends on: SHA-256 of the case's arguments, the contents of its files, the
 /// purpose, and the program. Where the files and the results lie does not matter.
 /// \param program its digest

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <thread>
 
 #include "geometry/kernel/errors.h"
@@ -26,6 +27,7 @@ constexpr std::size_t kMostTasks = 1000;  // of one job; Slurm's own default is 
 constexpr int kMostSubmissions = 3;       // of one case
 constexpr auto kPoll = std::chrono::seconds(2);
 constexpr auto kAnswer = std::chrono::seconds(120);  // of Slurm's programs
+constexpr int kMostSilent = 60;  // questions without an answer, one after another
 
 class SlurmBatch {
 public:
@@ -37,7 +39,7 @@ public:
           progress_(progress.silent()),
           folder_(options.folders.out / "slurm"),
           job_("vesselbench-" +
-               hash_of_text(fs::absolute(options.folders.out).string()).substr(0, 12)) {
+               hash_of_text(fs::weakly_canonical(options.folders.out).string()).substr(0, 12)) {
         for (PlannedCase& one : cases)
             if (!one.record) left_.push_back(&one);
         all_ = left_.size();
@@ -46,7 +48,8 @@ public:
     void run() {
         make_folder(folder_);
         try {
-            wait_for_jobs();  // of an earlier batch
+            wait_for_jobs();         // of an earlier batch
+            options_.retry = false;  // what fails from here on has been tried
             for (PlannedCase* one : left_)
                 static_cast<void>(begin_case(options_.folders, one->what.name));
             while (!left_.empty()) {
@@ -74,17 +77,31 @@ private:
     }
 
     /// A controller that does not answer may come back.
-    [[nodiscard]] bool is_queued() const {
-        const ProgramResult queue = run_to_end(
-            {"squeue", "--noheader", "--me", "--name=" + job_, "--format=%A"}, "", kAnswer);
-        return queue.exit_code != 0 || !queue.out.empty();
+    [[nodiscard]] bool is_queued() {
+        std::string why;
+        try {
+            const ProgramResult queue = run_to_end(
+                {"squeue", "--noheader", "--me", "--name=" + job_, "--format=%A"}, "", kAnswer);
+            if (queue.exit_code == 0) {
+                silent_ = 0;
+                return !queue.out.empty();
+            }
+            why = printable(queue.err);
+        } catch (const AlgorithmFailure& failure) {  // no answer in time
+            why = failure.what();
+        }
+        if (++silent_ == 1) tell_("squeue does not answer; waiting: " + why);
+        if (silent_ == kMostSilent)
+            throw IoError("squeue does not answer: " + why +
+                          "; the jobs go on: run the batch again");
+        return true;
     }
 
     void collect() {
         std::vector<PlannedCase*> left;
         for (PlannedCase* one : left_) {
             std::optional<CaseRecord> record = read_record(options_.folders.of(one->what.name));
-            if (record && record->key == one->key)
+            if (record && is_current(*record, *one, options_))
                 finish(*one, std::move(*record));
             else
                 left.push_back(one);
@@ -140,7 +157,7 @@ private:
         for (const std::string& word : task_) words.push_back(shell_quoted(word));
         return "#!/bin/sh\nname=$(sed -n \"${SLURM_ARRAY_TASK_ID}p\" " +
                shell_quoted(fs::absolute(folder_ / "cases.txt").string()) +
-               ")\n[ -n \"$name\" ] && exec " + joined(words, " ") + " \"$name\"\n";
+               ")\n[ -n \"$name\" ] && exec " + joined(words, " ") + "=\"$name\"\n";
     }
 
     [[nodiscard]] std::vector<std::string> sbatch(std::size_t count) const {
@@ -159,7 +176,7 @@ private:
         return command;
     }
 
-    const BatchOptions& options_;
+    BatchOptions options_;
     const std::vector<std::string> task_;
     const BatchTeller& tell_;
     const Progress progress_;
@@ -168,6 +185,7 @@ private:
     std::vector<PlannedCase*> left_;
     std::map<std::string, int> submissions_;
     std::size_t all_ = 0, done_ = 0;
+    int silent_ = 0;  // questions to the queue without an answer, the last ones
 };
 
 }  // namespace

@@ -46,8 +46,7 @@ std::vector<std::string> task_command(const BatchArguments& arguments) {
         arguments.out,
         formatted(arguments.limits.time_s, "--time-limit=%.17g"),
         formatted(arguments.limits.memory_gib, "--memory-limit=%.17g")};
-    for (const CaseValue& value : arguments.columns.shared)
-        words.push_back("--" + value.option + (value.text.empty() ? "" : "=" + value.text));
+    for (const CaseValue& value : arguments.columns.shared) words.push_back(value.argument());
     words.emplace_back("--task");
     return words;
 }

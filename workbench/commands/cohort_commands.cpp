@@ -47,9 +47,13 @@ CaseColumns columns_of(const std::vector<const CLI::Option*>& options) {
     for (const CLI::Option* option : options) {
         const CaseOption declared = case_option(*option);
         columns.options.push_back(declared);
+        if (declared.is_flag) {
+            if (option->count() > 0 && option->as<bool>())
+                columns.shared.push_back({.option = declared.name, .text = {}, .is_flag = true});
+            continue;
+        }
         for (const std::string& text : option->results())
-            columns.shared.push_back(
-                {declared.name, declared.is_flag ? "" : text, declared.is_file});
+            columns.shared.push_back({declared.name, text, declared.is_file});
     }
     return columns;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -23,9 +24,13 @@ constexpr double kEdges = 1.5;  ///< default gap without an image [mean edges]
 
 /// Where the surface has its narrowest handle.
 Vec3 place_of_handle(const Surface& surface, const Progress& progress) {
+    const std::optional<int> genus = connectivity(*surface.topology).genus;
+    if (!genus)
+        throw DiagnosedFailure({.code = "surface-not-manifold",
+                                .operation = "separate",
+                                .remedies = {{.operation = "repair", .before = true}}});
     std::vector<SurfaceHandle> handles;
-    if (connectivity(*surface.topology).genus.value_or(0) > 0)
-        handles = handles_of(surface, progress.silent());
+    if (*genus > 0) handles = handles_of(surface, progress.silent());
     if (handles.empty())
         throw DiagnosedFailure({.code = "no-contact-found",
                                 .operation = "separate",

@@ -117,10 +117,12 @@ int Child::wait() {
 }
 
 std::optional<int> Child::ended() {
-    int status = 0;
-    if (waitpid(pid_, &status, WNOHANG) != pid_) return std::nullopt;
-    pid_ = -1;
-    return status;
+    siginfo_t info{};
+    const auto process = static_cast<id_t>(pid_);
+    if (waitid(P_PID, process, &info, WEXITED | WNOHANG | WNOWAIT) != 0 || info.si_pid != pid_)
+        return std::nullopt;
+    if (own_group_) kill(-pid_, SIGKILL);  // what it has started and left
+    return wait();
 }
 
 ProgramResult run_to_end(const std::vector<std::string>& command, std::string_view input,

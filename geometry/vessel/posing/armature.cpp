@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <numbers>
 #include <unordered_set>
 
 #include "geometry/kernel/cross_section.h"
@@ -98,7 +99,7 @@ std::optional<Loop> loop_at(const Surface& surface, const Rod& rod, std::size_t 
     const Plane plane{rod.points[point], rod.tangent(point)};
     auto curve = cross_section_at(surface, plane);
     if (!curve || !curve->closed || !encloses(*curve, plane, plane.point)) return std::nullopt;
-    const double disc = M_PI * rod.radii[point] * rod.radii[point];
+    const double disc = std::numbers::pi * rod.radii[point] * rod.radii[point];
     if (std::abs(curve->area) > kLargestSection * disc) return std::nullopt;
     return Loop{std::move(*curve), point};
 }

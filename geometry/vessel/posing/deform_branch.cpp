@@ -5,6 +5,7 @@
 
 #include "geometry/kernel/argument_checks.h"
 #include "geometry/kernel/diagnosed_error.h"
+#include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
 #include "geometry/vessel/posing/pose_check.h"
@@ -191,6 +192,10 @@ DeformedBranch deform_branch(const Surface& surface, const CenterlineGraph& grap
                              const BranchDeformation& deformation, const Progress& progress) {
     if (!(deformation.straighten >= 0.0 && deformation.straighten <= 1.0))
         throw InvalidInput("straighten is a share from 0 to 1");
+    if (!deformation.at.allFinite() || !deformation.move.allFinite())
+        throw InvalidInput("the place and its move must be finite");
+    if (deformation.move != Vec3::Zero())
+        require_in_proportion("move", deformation.move.norm(), surface, 1.0);
     if (deformation.reach) require_positive("reach", *deformation.reach);
     return Deforming(surface, graph, deformation, progress.part(0.0, 1.0)).run(progress);
 }
