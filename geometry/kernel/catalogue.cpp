@@ -208,8 +208,9 @@ constexpr CatalogueText kTexts[] = {
     {"nothing-to-deform", "nothing is to be done: give {fix}, or {fix2}"},
     {"branches-apart", "no gap between branches is smaller than {gap_mm} mm: nothing was moved"},
     {"branches-parted",
-     "the smallest gap between branches, {before_mm:%.2f} mm at {place}, was widened to "
-     "{gap_mm:%.2f} mm; a wall was moved by up to {shift_mm:%.2f} mm: the model is for printing "
+     "the smallest gap between branches, {before_mm:%.2f} mm at {place}, was widened to at "
+     "least {gap_mm:%.2f} mm; a wall was moved by up to {shift_mm:%.2f} mm: the model is for "
+     "printing "
      "only"},
     {"no-branch-here", "no vessel's centerline is near {place}"},
     {"place-is-rigid",

@@ -51,9 +51,13 @@ void check_sections(const Surface& before, const Surface& after, const BentAxis&
               Approx(equal_radius(before, axis.rest, i)).epsilon(0.01));
 }
 
-void check_flat_caps(const Surface& surface) {
-    for (const PatchMeasures& patch : measure_patches(surface))
-        if (patch.kind != PatchKind::Wall) CHECK(patch.flatness < 1e-9);
+/// The caps are as flat as they were; those of phantoms are samples of a field, and not quite flat.
+void check_flat_caps(const Surface& before, const Surface& after) {
+    const auto were = measure_patches(before), are = measure_patches(after);
+    REQUIRE(are.size() == were.size());
+    for (std::size_t i = 0; i < are.size(); ++i)
+        if (are[i].kind != PatchKind::Wall)
+            CHECK(are[i].flatness == Approx(were[i].flatness).margin(1e-5));
 }
 
 std::string refusal(const Surface& surface, const BranchDeformation& deformation) {
@@ -77,7 +81,7 @@ SCENARIO("A place of a branch is moved and carries what lies beyond it", "[geome
     CHECK(result.to.z() < result.from.z());  // vessels keep their length
     CHECK(result.volume_after == Approx(result.volume_before).epsilon(0.001));
     check_sections(before, after, result.axis);
-    check_flat_caps(after);
+    check_flat_caps(before, after);
     CHECK(after.patch_labels == before.patch_labels);
     CHECK(is_closed_manifold(after));
     CHECK(self_intersections(after).empty());
@@ -124,7 +128,7 @@ SCENARIO("A bend is straightened", "[geometry][posing]") {
     CHECK(chord(result.axis.bent) > 0.995 * length);
     CHECK(result.volume_after == Approx(result.volume_before).epsilon(0.002));
     check_sections(before, result.surface, result.axis);
-    check_flat_caps(result.surface);
+    check_flat_caps(before, result.surface);
 }
 
 SCENARIO("Half of a bend is left", "[geometry][posing]") {
@@ -165,7 +169,7 @@ SCENARIO("Branches are pushed apart until the gap is reached", "[geometry][posin
     CHECK(result.shifts.front().largest < 1.0);
     CHECK(result.volume_after == Approx(result.volume_before).epsilon(0.001));
     CHECK(self_intersections(result.surface).empty());
-    check_flat_caps(result.surface);
+    check_flat_caps(phantom.surface, result.surface);
     for (const BentAxis& axis : result.axes) check_sections(phantom.surface, result.surface, axis);
 }
 

@@ -169,7 +169,8 @@ SCENARIO("A bridge between vessels is a handle", "[workbench][findings]") {
     const auto found = of_kind(find_findings(scene_of(phantom)), "handle");
     REQUIRE(found.size() == 1);
     CHECK(std::abs(found[0].place.z() - 7.2) < 2.0);
-    CHECK(found[0].treatment() == nullptr);
+    REQUIRE(found[0].treatment());
+    CHECK(found[0].treatment()->operation == "separate");
 }
 
 SCENARIO("Faults of the triangles are found", "[workbench][findings]") {

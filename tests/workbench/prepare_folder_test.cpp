@@ -75,13 +75,15 @@ std::map<std::string, std::string> content_of(const std::string& folder) {
 
 SCENARIO("The folder that was made of a bundled case does not hide the case",
          "[workbench][prepare]") {
-    const auto file_of = [](const char* name) { return resolve_input({.input = name}, {}).file; };
+    const auto case_of = [](const char* name) {
+        return resolve_input({.input = name, .mask = {}, .units = {}}, {}).folder;
+    };
     fs::current_path(temporary_folder());
     fs::create_directory("aneurysm");
-    CHECK_THROWS_AS(file_of("aneurysm"), InvalidInput);  // it has no slices
+    CHECK(case_of("aneurysm").empty());  // a folder of slices
     write_text("aneurysm/project.vbench", "");
-    CHECK(file_of("aneurysm").parent_path() == bundled_case("aneurysm"));
-    CHECK_THROWS_AS(file_of("no-case"), IoError);
+    CHECK(case_of("aneurysm") == bundled_case("aneurysm"));
+    CHECK_THROWS_AS(case_of("no-case"), IoError);
 }
 
 SCENARIO("prepare does not touch a folder whose project is open elsewhere",

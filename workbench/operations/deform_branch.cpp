@@ -48,6 +48,8 @@ Outcome deform(const Scene& scene, const Arguments& arguments, Progress& progres
     return outcome;
 }
 
+constexpr double kMostMove = 1000.0;  ///< in each direction [mm]: no vessel is longer
+
 std::vector<Parameter> deform_parameters() {
     using enum ParameterType;
     return {{.name = "at",
@@ -60,7 +62,9 @@ std::vector<Parameter> deform_parameters() {
              .type = Point,
              .unit = "mm",
              .help = "by which the place moves: across the vessel as given, along it as far as the "
-                     "vessel's length permits, which stays"},
+                     "vessel's length permits, which stays",
+             .minimum = -kMostMove,
+             .maximum = kMostMove},
             {.name = "straighten",
              .unit = "-",
              .default_value = 0.0,
