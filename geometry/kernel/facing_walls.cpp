@@ -1,12 +1,12 @@
 #include "geometry/kernel/facing_walls.h"
 
 #include <algorithm>
-#include <map>
 #include <optional>
 
 #include <tbb/parallel_for.h>
 
 #include "geometry/kernel/measure.h"
+#include "geometry/kernel/reached_distances.h"
 #include "geometry/kernel/shortest_paths.h"
 #include "geometry/kernel/vertex_normals.h"
 
@@ -27,17 +27,6 @@ std::vector<std::uint8_t> on_openings(const Surface& surface) {
             for (const VertexId v : surface.triangles()[t]) flags[v] = 1;
     return flags;
 }
-
-// Distances of the few vertices that a search reaches.
-class FewDistances {
-public:
-    double& operator[](VertexId v) {
-        return known_.try_emplace(v, std::numeric_limits<double>::infinity()).first->second;
-    }
-
-private:
-    std::map<VertexId, double> known_;
-};
 
 }  // namespace
 
@@ -70,7 +59,7 @@ std::vector<FacingWall> facing_walls(const Surface& surface, const SurfaceDistan
 bool is_fold(const Surface& surface, const FacingWall& facing, double crease) {
     const Triangle& target = surface.triangles()[facing.triangle];
     const double reach = std::max(kDetour * facing.distance, crease);
-    FewDistances distances;
+    ReachedDistances distances;
     ShortestPaths paths(distances);
     paths.lower(facing.from, 0.0);
     while (const auto at = paths.next()) {

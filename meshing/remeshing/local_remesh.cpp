@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
-#include <unordered_map>
 #include <utility>
 
 #include "geometry/kernel/argument_checks.h"
 #include "geometry/kernel/diagnosed_error.h"
+#include "geometry/kernel/reached_distances.h"
 #include "geometry/kernel/self_intersections.h"
 #include "geometry/kernel/shortest_paths.h"
 #include "geometry/kernel/surface_gap.h"
@@ -27,17 +26,6 @@ constexpr double kSourceEdge = 1.5;  ///< longest edge that carries sizes, in ta
 
 /// Ways along edges are longer than straight ones on the surface, by up to 15 % in a regular mesh.
 constexpr double kDetour = 1.16;
-
-/// Distances of the few vertices that a search reaches.
-class InfiniteWhereUnknown {
-public:
-    double& operator[](VertexId v) {
-        return known_.try_emplace(v, std::numeric_limits<double>::infinity()).first->second;
-    }
-
-private:
-    std::unordered_map<VertexId, double> known_;
-};
 
 /// Where the given edge length holds.
 struct Core {
@@ -187,7 +175,7 @@ std::vector<std::uint8_t> anchored_vertices(const LocalPart& part, const Core& c
 
 std::vector<VertexId> vertices_within(const Surface& surface, const SurfacePoint& centre,
                                       double within) {
-    InfiniteWhereUnknown distances;
+    ReachedDistances distances;
     ShortestPaths paths(distances);
     const Positions& points = surface.points();
     for (const VertexId v : surface.triangles()[centre.triangle])

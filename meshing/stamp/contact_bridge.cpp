@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "geometry/kernel/diagnosed_error.h"
+#include "meshing/stamp/refusal.h"
 
 namespace vesselbench {
 
@@ -13,13 +14,6 @@ namespace {
 constexpr double kScatter = 2.5;  ///< wall off its tube by more is no part of it [deviations]
 constexpr double kLeast = 0.05;   ///< of that distance [radii]
 constexpr double kMost = 0.15;    ///< of that distance [radii]
-
-[[noreturn]] void refuse(const Vec3& place) {
-    throw DiagnosedFailure({.code = "contact-not-parted",
-                            .operation = "separate",
-                            .place = place,
-                            .remedies = {{.arguments = {{"at", ""}}}, {.operation = "stamp"}}});
-}
 
 bool is_mixed(const Triangle& t, const std::vector<std::uint8_t>& own) {
     return own[t[0]] != own[t[1]] || own[t[1]] != own[t[2]];
@@ -134,15 +128,16 @@ void complete(const ContactZone& zone, const TwinTubes& twins, ContactBridge& br
     const std::vector<std::uint8_t> gone = vertices_of(part, bridge.removed);
     for (const ContactArm& arm : zone.arms)
         for (const VertexId v : arm.rim)
-            if (gone[v]) refuse(part.points()[v]);
+            if (gone[v]) refuse_parting(part.points()[v]);
     std::array<std::uint8_t, 4> root{};
     for (std::uint8_t arm = 0; arm < 4; ++arm) root[arm] = from[zone.arms[arm].rim.front()];
     const auto& arms = twins.arms;
     if (root[arms[0][0]] != root[arms[0][1]] || root[arms[1][0]] != root[arms[1][1]] ||
         root[arms[0][0]] == root[arms[1][0]])
-        refuse(bridge.centre);
+        refuse_parting(bridge.centre);
     for (std::uint8_t vessel = 0; vessel < 2; ++vessel)
-        if (bridge.own[zone.arms[arms[vessel][0]].rim.front()] != vessel) refuse(bridge.centre);
+        if (bridge.own[zone.arms[arms[vessel][0]].rim.front()] != vessel)
+            refuse_parting(bridge.centre);
 }
 
 /// Extent of the bridge's middle line along and across the vessels.
@@ -152,7 +147,7 @@ void measure(const ContactZone& zone, const TwinTubes& twins, ContactBridge& bri
     for (const Triangle& t : part.triangles())
         if (is_mixed(t, bridge.own))
             seam.push_back((part.points()[t[0]] + part.points()[t[1]] + part.points()[t[2]]) / 3.0);
-    if (seam.empty()) refuse(zone.centre);
+    if (seam.empty()) refuse_parting(zone.centre);
     for (const Vec3& p : seam) bridge.centre += p / static_cast<double>(seam.size());
     std::array<Vec3, 2> along;
     std::array<Vec3, 2> middle;

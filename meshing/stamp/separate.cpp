@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <utility>
 #include <vector>
 
@@ -16,6 +15,7 @@
 #include "meshing/stamp/contact.h"
 #include "meshing/stamp/contact_arms.h"
 #include "meshing/stamp/contact_bridge.h"
+#include "meshing/stamp/refusal.h"
 #include "meshing/stamp/twin_tubes.h"
 #include "meshing/stamp/twin_walls.h"
 
@@ -29,17 +29,8 @@ constexpr double kBeyond = 1.0;     ///< zone around the contact, beyond it [rad
 constexpr double kFarBeyond = 3.0;  ///< the same, if that is not enough [radii]
 constexpr double kLargest = 0.35;   ///< misfit of a pairing that is none [-]
 
-[[noreturn]] void refuse(const char* code, const Vec3& place, std::map<std::string, double> figures,
-                         std::vector<Remedy> remedies) {
-    throw DiagnosedFailure({.code = code,
-                            .operation = "separate",
-                            .place = place,
-                            .figures = std::move(figures),
-                            .remedies = std::move(remedies)});
-}
-
 [[noreturn]] void refuse_joined(const ContactZone& zone) {
-    refuse("contact-joins", zone.centre, {}, {{.arguments = {{"at", ""}}}});
+    refuse("contact-joins", "separate", zone.centre, {}, {{.arguments = {{"at", ""}}}});
 }
 
 std::size_t nearest_arm(const ContactZone& zone, const Vec3& to) {
@@ -51,7 +42,7 @@ std::size_t nearest_arm(const ContactZone& zone, const Vec3& to) {
 TwinTubes named_twins(const ContactZone& zone, const std::array<Vec3, 2>& vessel) {
     const std::size_t from = nearest_arm(zone, vessel[0]), to = nearest_arm(zone, vessel[1]);
     if (from == to)
-        refuse("contact-one-arm", vessel[0], {},
+        refuse("contact-one-arm", "separate", vessel[0], {},
                {{.arguments = {{"side_a", ""}}}, {.arguments = {{"side_b", ""}}}});
     // Pairs of arms are named by the first arm's partner.
     const std::size_t partner = from == 0 || to == 0 ? from + to : 6 - from - to;
@@ -71,7 +62,7 @@ TwinTubes decided_twins(const ContactZone& zone, const Progress& progress) {
     std::ranges::sort(possible, {}, &TwinTubes::misfit);
     if (possible.empty() || possible[0].misfit > kLargest) refuse_joined(zone);
     if (possible.size() > 1 && possible[0].misfit > kClear * possible[1].misfit)
-        refuse("contact-pairing-unclear", zone.centre,
+        refuse("contact-pairing-unclear", "separate", zone.centre,
                {{"misfit_percent", 100.0 * possible[0].misfit},
                 {"other_percent", 100.0 * possible[1].misfit}},
                {{.arguments = {{"side_a", ""}}}, {.arguments = {{"side_b", ""}}}});
@@ -154,12 +145,12 @@ void require_sound(const Surface& before, const Surface& after, const SeparateRe
     const Connectivity was = connectivity(*before.topology), is = connectivity(*after.topology);
     if (is.boundary_loops != was.boundary_loops || (was.manifold && !is.manifold) ||
         (was.oriented && !is.oriented))
-        refuse("contact-not-parted", report.centre, {},
-               {{.arguments = {{"at", ""}}}, {.operation = "stamp"}});
+        refuse_parting(report.centre);
     std::vector<std::uint8_t> changed(after.triangle_count(), 0);
     std::fill(changed.end() - static_cast<std::ptrdiff_t>(report.replacement), changed.end(), 1);
     if (const auto crossing = crossing_of(after, changed, progress))
-        refuse("separate-crosses", *crossing, {}, {{.operation = "repair", .before = true}});
+        refuse("separate-crosses", "separate", *crossing, {},
+               {{.operation = "repair", .before = true}});
 }
 
 void measure_change(const Surface& before, const Surface& after, SeparateReport& report) {

@@ -14,6 +14,7 @@
 #include "geometry/kernel/wording.h"
 #include "meshing/remeshing/local_remesh.h"
 #include "meshing/remeshing/sizing_field.h"
+#include "meshing/stamp/refusal.h"
 
 namespace vesselbench {
 
@@ -26,15 +27,6 @@ constexpr int kAttempts = 3;         ///< each moves a tool that touches the wal
 constexpr double kNudge = 1e-4;      ///< of the mean edge, per attempt
 constexpr double kGradation = 1.5;   ///< as remesh() has by default [-]
 constexpr int kContinuity = 1;       ///< of the faired seam
-
-[[noreturn]] void refuse(const char* code, const Vec3& place, std::map<std::string, double> figures,
-                         std::vector<Remedy> remedies) {
-    throw DiagnosedFailure({.code = code,
-                            .operation = "stamp",
-                            .place = place,
-                            .figures = std::move(figures),
-                            .remedies = std::move(remedies)});
-}
 
 const std::vector<Remedy>& another_place() {
     static const std::vector<Remedy> remedies = {{.arguments = {{"centre", ""}}}};
@@ -154,11 +146,11 @@ Corefined cut(const Surface& part, const ToolBody& tool, const SurfaceDistance& 
     }
     switch (problem) {
         case CorefinementProblem::Apart:
-            refuse("stamp-touches-nothing", tool.centre, {}, another_place());
+            refuse("stamp-touches-nothing", "stamp", tool.centre, {}, another_place());
         case CorefinementProblem::Swallowed:
-            refuse("stamp-swallows", tool.centre, {}, another_place());
+            refuse("stamp-swallows", "stamp", tool.centre, {}, another_place());
         default:
-            refuse("stamp-degenerate", tool.centre, {}, another_place());
+            refuse("stamp-degenerate", "stamp", tool.centre, {}, another_place());
     }
 }
 
@@ -216,7 +208,8 @@ void fair_seam(EditedPart& piece, const Corefined& both, const Reach& reach, dou
     const std::vector<VertexId> zone = fairing_zone(piece, both, blend);
     if (zone.empty()) return;
     auto moved = faired(piece.surface, zone, kContinuity);
-    if (!moved) refuse("stamp-degenerate", tool.centre, {}, {{.arguments = {{"blend", ""}}}});
+    if (!moved)
+        refuse("stamp-degenerate", "stamp", tool.centre, {}, {{.arguments = {{"blend", ""}}}});
     for (const VertexId v : zone)
         if (reach.distance((*moved)[v]) < 0.0)
             (*moved)[v] = reach.body().closest_point((*moved)[v]).point;
@@ -229,11 +222,11 @@ void require_sound(const Surface& before, const Surface& after, const StampRepor
     const Connectivity was = connectivity(*before.topology), is = connectivity(*after.topology);
     if (is.boundary_loops != was.boundary_loops || (was.manifold && !is.manifold) ||
         (was.oriented && !is.oriented))
-        refuse("stamp-degenerate", tool.centre, {}, another_place());
+        refuse("stamp-degenerate", "stamp", tool.centre, {}, another_place());
     std::vector<std::uint8_t> changed(after.triangle_count(), 0);
     std::fill(changed.end() - static_cast<std::ptrdiff_t>(report.replacement), changed.end(), 1);
     if (const auto crossing = crossing_of(after, changed, progress))
-        refuse("stamp-crosses", *crossing, {},
+        refuse("stamp-crosses", "stamp", *crossing, {},
                {{.arguments = {{"blend", ""}}}, {.operation = "repair"}});
 }
 
@@ -248,14 +241,17 @@ void measure_change(const Surface& before, const Surface& after, const ToolBody&
     report.volume_change = volume(after) - volume_before;
     const double share = std::abs(report.volume_change) / std::max(std::abs(volume_before), 1e-300);
     if (share > kMostVolume)
-        refuse("stamp-swallows", tool.centre, {{"volume_percent", 100.0 * share}}, another_place());
+        refuse("stamp-swallows", "stamp", tool.centre, {{"volume_percent", 100.0 * share}},
+               another_place());
 }
 
 void check_tool(const Reach& reach, const ToolBody& tool, const Surface& surface) {
-    if (reach.edge() == 0.0) refuse("stamp-touches-nothing", tool.centre, {}, another_place());
+    if (reach.edge() == 0.0)
+        refuse("stamp-touches-nothing", "stamp", tool.centre, {}, another_place());
     if (tool.thickness < kThinnest * reach.edge()) {
         const Vec3& at = tool.centre;
-        refuse("stamp-too-thin", at, {{"thickness_mm", tool.thickness}, {"edge_mm", reach.edge()}},
+        refuse("stamp-too-thin", "stamp", at,
+               {{"thickness_mm", tool.thickness}, {"edge_mm", reach.edge()}},
                {{.operation = "remesh",
                  .arguments = {{"at", formatted(at.x(), "%.2f,") + formatted(at.y(), "%.2f,") +
                                           formatted(at.z(), "%.2f")},

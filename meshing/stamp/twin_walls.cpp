@@ -13,6 +13,7 @@
 #include "geometry/kernel/surface_gap.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/openings/vessel_tube.h"
+#include "meshing/stamp/refusal.h"
 
 namespace vesselbench {
 
@@ -25,15 +26,6 @@ constexpr int kFiner = 4;         ///< points of a chart's line per centre of it
 constexpr double kSoft = 0.6;     ///< width over which a wall bends off to the gap, of the gap [-]
 constexpr double kDeepest = 0.5;  ///< a wall recedes by less [radii]
 constexpr double kOvershoot = 1.1;  ///< of what lacks to the gap, added for the next round
-
-[[noreturn]] void refuse(const char* code, const Vec3& place, std::map<std::string, double> figures,
-                         std::vector<Remedy> remedies) {
-    throw DiagnosedFailure({.code = code,
-                            .operation = "separate",
-                            .place = place,
-                            .figures = std::move(figures),
-                            .remedies = std::move(remedies)});
-}
 
 /// Through the tube's centres as a smooth curve. Source: Catmull and Rom, "A class of local
 /// interpolating splines", 1974.
@@ -107,9 +99,7 @@ Closed closed_at_last(const ContactZone& zone, const TwinTubes& twins, ContactBr
         try {
             return closed_holes(zone, twins, bridge);
         } catch (const AlgorithmFailure&) {
-            if (attempt == kAttempts)
-                refuse("contact-not-parted", bridge.centre, {},
-                       {{.arguments = {{"at", ""}}}, {.operation = "stamp"}});
+            if (attempt == kAttempts) refuse_parting(bridge.centre);
         }
     }
 }
@@ -213,8 +203,8 @@ TwinWalls twin_walls(const ContactZone& zone, const TwinTubes& twins, ContactBri
         }
         slab += kOvershoot * (gap - nearest.distance);
     }
-    if (reached <= 0.0) refuse("separate-gap", narrow, {{"gap_mm", gap}}, {});
-    refuse("separate-gap", narrow, {{"gap_mm", gap}, {"reached_mm", reached}},
+    if (reached <= 0.0) refuse("separate-gap", "separate", narrow, {{"gap_mm", gap}}, {});
+    refuse("separate-gap", "separate", narrow, {{"gap_mm", gap}, {"reached_mm", reached}},
            {{.arguments = {{"gap", formatted(0.9 * reached, "%.2g")}}}});
 }
 
