@@ -38,6 +38,7 @@ install(FILES ${made}/completion-fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/
 install(FILES packaging/vesselbench.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications)
 install(FILES packaging/vesselbench.svg DESTINATION ${CMAKE_INSTALL_DATADIR}/icons/hicolor/scalable/apps)
 install(FILES packaging/vesselbench.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/mime/packages)
+install(FILES packaging/vesselbench.thumbnailer DESTINATION ${CMAKE_INSTALL_DATADIR}/thumbnailers)
 install(FILES packaging/vesselbench.metainfo.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/metainfo)
 install(FILES packaging/copyright README.md CONTRIBUTING.md SECURITY.md ${made}/changelog.gz ${made}/CHANGELOG.md.gz ${made}/NOTICES.gz ${made}/LICENSE.gz
   ${made}/vesselbench.spdx.json.gz

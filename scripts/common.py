@@ -8,7 +8,7 @@ import sys
 
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 BUILD = os.path.join(ROOT, "build", "release")
-PROGRAM = os.path.join(BUILD, "vesselbench")
+PROGRAM = os.environ.get("VESSELBENCH") or os.path.join(BUILD, "vesselbench")
 DATA = os.path.join(os.path.dirname(ROOT), "shared", "data")
 
 skipped = []  # reasons, filled by skip()

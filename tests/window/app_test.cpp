@@ -262,3 +262,14 @@ SCENARIO("An idle window does not draw its model again", "[window][app]") {
     REQUIRE(shell->click_item("view.edges"));
     CHECK(shell->app().drawings() > drawings);
 }
+
+SCENARIO("The window begins with what it has to tell", "[window][app]") {
+    AppOptions options = app_options();
+    options.notice = "The program crashed the last time.";
+    if (!test_shell()) return;
+    OffscreenShell shell(options, 1280, 720);
+    const auto& messages = shell.app().place().document.messages();
+    REQUIRE(messages.size() == 1);
+    CHECK(messages.back().text == options.notice);
+    CHECK(messages.back().kind == MessageKind::Warning);
+}

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/kernel/amounts.h"
 #include "geometry/kernel/wording.h"
 
 namespace vesselbench {
@@ -60,12 +61,6 @@ double mean_error(const Line& line, const std::vector<Cost>& costs) {
     return sum / static_cast<double>(costs.size());
 }
 
-std::string duration_text(double seconds) {
-    if (seconds < 120.0) return formatted(seconds, "%.0f s");
-    if (seconds < 7200.0) return formatted(seconds / 60.0, "%.0f min");
-    return formatted(seconds / 3600.0, "%.1f h");
-}
-
 }  // namespace
 
 std::string cost_text(const std::vector<PlannedCase>& cases, std::size_t jobs) {
@@ -75,9 +70,9 @@ std::string cost_text(const std::vector<PlannedCase>& cases, std::size_t jobs) {
     std::ranges::sort(costs, {}, &Cost::peak_mib);
     return "by " + counted(costs.size(), "case") + ": " +
            formatted(3600.0 * static_cast<double>(jobs) / seconds, "%.0f cases an hour with ") +
-           counted(jobs, "job") + formatted(seconds, " (%.1f s a case), memory ") +
-           formatted(costs[costs.size() / 2].peak_mib, "%.0f MiB a case (median), ") +
-           formatted(costs.back().peak_mib, "%.0f MiB at most");
+           counted(jobs, "job") + " (" + duration_text(seconds) + " a case), memory " +
+           mebibytes_text(costs[costs.size() / 2].peak_mib) + " a case (median), " +
+           mebibytes_text(costs.back().peak_mib) + " at most";
 }
 
 std::string estimate_text(const std::vector<PlannedCase>& cases, std::size_t jobs) {

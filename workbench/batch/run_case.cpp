@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "geometry/kernel/amounts.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
 #include "workbench/case/json_text.h"
@@ -72,7 +73,7 @@ CaseRecord run_case(const PlannedCase& one, const BatchOptions& options, const B
 
 std::string outcome_text(const CaseRecord& record) {
     const std::string cost =
-        formatted(record.seconds, " (%.1f s, ") + formatted(record.peak_mib, "%.0f MiB)");
+        " (" + duration_text(record.seconds) + ", " + mebibytes_text(record.peak_mib) + ")";
     if (!record.failure) return "done" + cost;
     const std::string& text = record.failure->text;
     return "failed" + cost + ": " + record.failure->code + ": " + text.substr(0, text.find('\n'));

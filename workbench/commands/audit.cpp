@@ -11,6 +11,7 @@
 #include "workbench/case/json_text.h"
 #include "workbench/commands/commands.h"
 #include "workbench/commands/console.h"
+#include "workbench/commands/messages.h"
 #include "workbench/operations/table.h"
 #include "workbench/review/audit_texts.h"
 

@@ -16,6 +16,7 @@
 #include "workbench/case/purposes.h"
 #include "workbench/commands/cohort_commands.h"
 #include "workbench/commands/console.h"
+#include "workbench/commands/messages.h"
 
 namespace vesselbench {
 

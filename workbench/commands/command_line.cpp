@@ -12,12 +12,14 @@
 #include "workbench/case/version.h"
 #include "workbench/commands/cohort_commands.h"
 #include "workbench/commands/command_parser.h"
+#include "workbench/commands/crash_report.h"
 #include "workbench/commands/measuring_commands.h"
 #include "workbench/commands/preparing_commands.h"
 #include "workbench/commands/project_commands.h"
 #include "workbench/commands/shell/shell_commands.h"
 #include "workbench/phantoms/phantom_json.h"
 #include "workbench/prepare/case_files.h"
+#include "workbench/window/case/user_folders.h"
 
 namespace vesselbench {
 
@@ -176,6 +178,9 @@ int run_command_line(int argc, char** argv, const std::stop_token& stop, FailedC
     } catch (const CLI::ParseError& error) {
         throw UsageError(error.what() + help_hint(line.app));
     }
+    set_messages(line.messages);
+    const auto chosen = line.app.get_subcommands();
+    report_crashes(state_folder(), chosen.empty() ? "window" : chosen.front()->get_name());
     if (!line.command) {
         show_window(line);
         return 0;

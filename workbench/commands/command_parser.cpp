@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "workbench/commands/console.h"
+#include "workbench/commands/messages.h"
 
 namespace vesselbench {
 
@@ -13,9 +13,23 @@ CommandLine::CommandLine(std::stop_token on)
       stop(std::move(on)),
       progress(console_progress(stop)) {}
 
+namespace {
+
+void add_messages(CLI::App& command, MessageOptions& messages) {
+    command.add_flag("-q,--quiet", messages.quiet,
+                     "Write no messages and no progress to stderr, only errors");
+    command
+        .add_option("--log", messages.log,
+                    "Append messages and progress, with their times, to this file")
+        ->type_name("FILE");
+}
+
+}  // namespace
+
 CLI::App& add_command(CommandLine& line, const std::string& name, const std::string& summary,
                       std::function<int()> command) {
     CLI::App& added = *line.app.add_subcommand(name, summary);
+    add_messages(added, line.messages);
     added.callback([&line, run = std::move(command)] { line.command = run; });
     return added;
 }

@@ -9,6 +9,7 @@
 
 #include "geometry/kernel/progress.h"
 #include "workbench/commands/commands.h"
+#include "workbench/commands/messages.h"
 
 namespace vesselbench {
 
@@ -21,9 +22,10 @@ struct CommandLine {
     Progress progress;
     std::function<int()> command;
     WindowOptions window;
+    MessageOptions messages;
 };
 
-/// Adds a command. \param command runs it, and returns its exit code
+/// Adds a command with the options that all have. \param command runs it, and returns its exit code
 CLI::App& add_command(CommandLine& line, const std::string& name, const std::string& summary,
                       std::function<int()> command);
 

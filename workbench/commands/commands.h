@@ -108,8 +108,10 @@ struct MeasureOptions {
 void measure_surface(const MeasureOptions& options);
 
 struct PictureArguments {
-    std::string surface;
+    std::string surface;        ///< or a project
+    std::string variant;        ///< of a project; empty: variant_of()
     std::string out;            ///< .png
+    bool any_name = false;      ///< for `out`
     std::string reference;      ///< empty: colours by patch
     std::string colour;         ///< vertex attribute to show; empty: none
     std::vector<double> range;  ///< its first and last colour, 2 numbers; empty: automatic
@@ -121,7 +123,8 @@ struct PictureArguments {
     bool json = false;
 };
 
-/// Draws a surface, coloured by patch or by its deviation from a reference.
+/// Draws a surface, or a project's as far as its edits have run, coloured by patch or by its
+/// deviation from a reference.
 void draw_picture(const PictureArguments& arguments);
 
 struct SuggestOptions {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <chrono>
 #include <csignal>
 #include <cstdint>
 #include <cstdio>
@@ -16,7 +15,6 @@
 #include <unistd.h>
 
 #include "geometry/kernel/printable.h"
-#include "workbench/session/monotone_progress.h"
 
 namespace vesselbench {
 
@@ -64,10 +62,6 @@ bool is_ignored(int signal) {
 void handle_stop_signals(void (*handler)(int)) {
     for (const int signal : kStopSignals)
         if (!is_ignored(signal)) std::signal(signal, handler);
-}
-
-bool on_terminal() {
-    return ::isatty(STDERR_FILENO) == 1;
 }
 
 std::vector<std::string> wrapped(const std::string& text, std::size_t width) {
@@ -121,26 +115,6 @@ SignalStop::~SignalStop() {
     signal_pipe = -1;
     ::close(listener_->ends[0]);
     ::close(listener_->ends[1]);
-}
-
-Progress console_progress(std::stop_token stop) {
-    if (!on_terminal()) return {nullptr, std::move(stop)};
-    const auto shown = std::make_shared<std::chrono::steady_clock::time_point>();
-    const auto show = [shown](double fraction, std::string_view what) {
-        const auto now = std::chrono::steady_clock::now();
-        if (now - *shown < std::chrono::milliseconds(100)) return;
-        *shown = now;
-        std::fprintf(stderr, "\r\033[K%3.0f %%  %s", 100.0 * fraction, printable(what).c_str());
-    };
-    return {monotone(show), std::move(stop)};
-}
-
-void remark(const std::string& text) {
-    std::fprintf(stderr, "%s%s\n", on_terminal() ? "\r\033[K" : "", printable(text).c_str());
-}
-
-void complain(const std::string& text) {
-    remark("vesselbench: " + text);
 }
 
 std::string as_columns(const std::vector<std::vector<std::string>>& texts) {

@@ -5,8 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "geometry/kernel/progress.h"
-
 namespace vesselbench {
 
 /// Turns SIGINT, SIGTERM and SIGHUP into a stop request for as long as it lives. Another one ends
@@ -28,15 +26,6 @@ private:
     std::stop_source source_;
     std::unique_ptr<Listener> listener_;
 };
-
-/// Shows progress as one changing line on stderr if that is a terminal, else nothing.
-[[nodiscard]] Progress console_progress(std::stop_token stop);
-
-/// Writes the line "vesselbench: text" to stderr: why the program failed.
-void complain(const std::string& text);
-
-/// Writes one line to stderr: a remark or a warning. Control characters are shown escaped.
-void remark(const std::string& text);
 
 /// Rows as left-aligned columns, two spaces apart; the last column is wrapped to a width of 100
 /// characters. Control characters are shown escaped.

@@ -1,3 +1,4 @@
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -8,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "geometry/kernel/amounts.h"
 #include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
@@ -17,9 +19,11 @@
 #include "workbench/case/version.h"
 #include "workbench/commands/commands.h"
 #include "workbench/commands/console.h"
+#include "workbench/commands/crash_report.h"
 #include "workbench/prepare/bundled_cases.h"
 #include "workbench/review/page_file.h"
 #include "workbench/review/review_page_bytes.h"
+#include "workbench/window/case/user_folders.h"
 #include "workbench/worker/sandbox.h"
 
 namespace vesselbench {
@@ -29,8 +33,10 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// Below them a preparation may stop half way.
-constexpr double kLittleMemory = 2.0, kLittleDisk = 1.0;  ///< [GiB]
+constexpr std::uint64_t kGibi = 1U << 30U;
+
+/// Below them a preparation may stop half way [bytes].
+constexpr std::uint64_t kLittleMemory = 2 * kGibi, kLittleDisk = kGibi;
 
 struct Check {
     std::string name;
@@ -38,23 +44,19 @@ struct Check {
     std::string lacking;  ///< what does not work, and how to get it; empty: all is well
 };
 
-std::string gibibytes(double size) {
-    return formatted(size, "%.1f GiB");
-}
-
-/// A line of /proc/meminfo [GiB]; 0: it has none.
-double memory(const std::string& key) {
+/// A line of /proc/meminfo [bytes]; 0: it has none.
+std::uint64_t memory(const std::string& key) {
     std::ifstream lines("/proc/meminfo");
     for (std::string line; std::getline(lines, line);)
         if (line.starts_with(key + ":"))
-            return std::strtod(line.c_str() + key.size() + 1, nullptr) / (1024.0 * 1024.0);
-    return 0.0;
+            return std::strtoull(line.c_str() + key.size() + 1, nullptr, 10) * 1024U;
+    return 0;
 }
 
 Check memory_check() {
-    const double free = memory("MemAvailable");
+    const std::uint64_t free = memory("MemAvailable");
     return {
-        "memory", gibibytes(free) + " free of " + gibibytes(memory("MemTotal")),
+        "memory", size_text(free) + " free of " + size_text(memory("MemTotal")),
         free < kLittleMemory ? "large images and meshes may not fit: close other programs" : ""};
 }
 
@@ -63,9 +65,9 @@ Check disk_check(const std::string& name, fs::path (*place)(std::error_code&)) {
     std::error_code error;
     const fs::path folder = place(error);
     if (error) return {name, "unknown", error.message()};
-    const double free = static_cast<double>(fs::space(folder, error).available) / (1U << 30U);
+    const std::uint64_t free = fs::space(folder, error).available;
     if (error) return {name, "unknown", "the folder cannot be read"};
-    return {name, gibibytes(free) + " free",
+    return {name, size_text(free) + " free",
             free < kLittleDisk ? "projects and meshes may not fit: free some space" : ""};
 }
 
@@ -130,6 +132,14 @@ Check bundled_check() {
             found ? "" : "`prepare aneurysm` refuses: install again"};
 }
 
+Check crash_check() {
+    const std::vector<fs::path> reports = crash_reports(state_folder());
+    if (reports.empty()) return {"crash reports", "none", ""};
+    return {"crash reports",
+            counted(reports.size(), "file") + ", the last " + reports.front().string(),
+            "please report what happened with that file, then remove it"};
+}
+
 std::vector<Check> checks() {
     return {{"vesselbench", version(), ""},
             {"processors", std::to_string(std::thread::hardware_concurrency()), ""},
@@ -144,7 +154,8 @@ std::vector<Check> checks() {
             program_check("OpenFOAM", "simpleFoam",
                           "cases are written, but cannot be run here: apt install openfoam"),
             program_check("OpenSSH", "ssh-keygen",
-                          "signatures cannot be verified: apt install openssh-client")};
+                          "signatures cannot be verified: apt install openssh-client"),
+            crash_check()};
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "workbench/commands/commands.h"
 #include "workbench/commands/console.h"
 #include "workbench/commands/end_picture.h"
+#include "workbench/commands/messages.h"
 #include "workbench/operations/clip_opening/clipping.h"
 #include "workbench/operations/clip_opening/clipping_record.h"
 #include "workbench/prepare/before_cuts.h"

@@ -9,6 +9,7 @@
 #include "workbench/case/json_text.h"
 #include "workbench/commands/commands.h"
 #include "workbench/commands/console.h"
+#include "workbench/commands/messages.h"
 #include "workbench/findings/detectors.h"
 #include "workbench/findings/find_findings.h"
 #include "workbench/findings/treatment.h"
@@ -58,7 +59,7 @@ const Finding& finding_meant(const std::vector<Finding>& findings, const std::st
 void print_accepted(const LogEntry& entry, const FindingsArguments& arguments) {
     if (entry.result)
         for (const Diagnostic& warning : entry.result->warnings)
-            remark("warning: " + worded(warning, {.project = arguments.project}));
+            warn(worded(warning, {.project = arguments.project}));
     if (arguments.json)
         std::cout << text_from_json(log_json(entry), 2) << "\n";
     else

@@ -19,6 +19,7 @@
 #include "workbench/commands/command_line.h"
 #include "workbench/commands/console.h"
 #include "workbench/commands/failure.h"
+#include "workbench/commands/messages.h"
 #include "workbench/operations/table.h"
 #include "workbench/worker/worker.h"
 

@@ -76,7 +76,9 @@ void add_picture(CommandLine& line) {
     CLI::App& command =
         add_command(line, "picture", "Draw a surface, or its deviation from a reference",
                     [options] { return draw_picture(*options), 0; });
-    command.add_option("SURFACE", options->surface, "Surface file")->required()->type_name("");
+    command.add_option("SURFACE", options->surface, "Surface file, or a project (.vbench)")
+        ->required()
+        ->type_name("");
     command.add_option("OUT.png", options->out, "The picture")->required()->type_name("");
     command
         .add_option("--reference", options->reference,
@@ -103,9 +105,12 @@ void add_picture(CommandLine& line) {
         ->delimiter(',')
         ->expected(3)
         ->type_name("X,Y,Z");
+    add_variant(command, options->variant, "Variant of a project to draw");
     command.add_option("--size", options->size, "Width and height [pixels]")
         ->capture_default_str()
         ->type_name("PIXELS");
+    command.add_flag("--any-name", options->any_name, "Write PNG, whatever OUT.png is called")
+        ->group("");  // file managers choose names without a suffix
     command.add_flag("--transparent", options->transparent,
                      "Transparent background instead of white; a scale stays on white");
     command.add_option("--units", options->units, "Unit of the files: mm, cm or m (default: mm)")

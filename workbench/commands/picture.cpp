@@ -2,10 +2,12 @@
 
 #include <cmath>
 #include <iostream>
+#include <memory>
 
 #include <nlohmann/json.hpp>
 
 #include "geometry/formats/format.h"
+#include "geometry/kernel/bare_name.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/pending_files.h"
 #include "geometry/kernel/wording.h"
@@ -15,7 +17,11 @@
 #include "workbench/colours/shown_measure.h"
 #include "workbench/commands/commands.h"
 #include "workbench/operations/shared/foreign_surface.h"
+#include "workbench/operations/table.h"
+#include "workbench/prepare/prepared_purposes.h"
+#include "workbench/project/project.h"
 #include "workbench/report/report_pictures.h"
+#include "workbench/session/session.h"
 
 namespace vesselbench {
 
@@ -24,7 +30,7 @@ namespace {
 constexpr int kLargestSide = 8192;  ///< limit of gpu/picture.h
 
 void check(const PictureArguments& arguments) {
-    if (lower_suffix(arguments.out) != ".png")
+    if (!arguments.any_name && lower_suffix(arguments.out) != ".png")
         throw UsageError("OUT '" + arguments.out + "' does not end in .png");
     if (arguments.size < 1 || arguments.size > kLargestSide)
         throw UsageError("--size: " + std::to_string(arguments.size) +
@@ -93,6 +99,19 @@ std::pair<std::string, std::string> drawn_file(const Surface& surface, PictureOp
     return {png(without_background(on_black.picture, on_white.picture)), on_white.legend};
 }
 
+/// Of a project what its edits have made so far; none of them runs.
+Surface shown_surface(const PictureArguments& arguments) {
+    if (!is_project_file(arguments.surface))
+        return read_foreign_surface(arguments.surface, arguments.units);
+    Session session = Session::open(arguments.surface, {.find = find_operation});
+    const std::shared_ptr<const Snapshot> state = session.snapshot();
+    const std::string variant = variant_of(arguments.surface, arguments.variant, *state->history);
+    const Scene scene = session.known_scene(state->history->current(), variant);
+    if (scene.surface) return *scene.surface;
+    throw InvalidInput(bare_name(arguments.surface) +
+                       " has no surface: none of its edits has made one");
+}
+
 }  // namespace
 
 void draw_picture(const PictureArguments& arguments) {
@@ -100,8 +119,7 @@ void draw_picture(const PictureArguments& arguments) {
     const Vec3 view = view_of(arguments.view);
     const PictureOptions options{
         .width = arguments.size, .height = arguments.size, .view = view, .up = upward_for(view)};
-    const auto [bytes, legend] =
-        drawn_file(read_foreign_surface(arguments.surface, arguments.units), options, arguments);
+    const auto [bytes, legend] = drawn_file(shown_surface(arguments), options, arguments);
     PendingFiles files;
     files.add_text(arguments.out, bytes);
     files.commit();

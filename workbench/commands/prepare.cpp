@@ -14,7 +14,7 @@
 #include "workbench/case/purposes.h"
 #include "workbench/colours/shown_measure.h"
 #include "workbench/commands/commands.h"
-#include "workbench/commands/console.h"
+#include "workbench/commands/messages.h"
 #include "workbench/export/products.h"
 #include "workbench/operations/table.h"
 #include "workbench/prepare/case_files.h"
@@ -103,7 +103,7 @@ void prepare_case(const PrepareArguments& arguments, const Progress& progress) {
     const std::string project = (out / kProjectFile).string();
     const Teller tell(&remark, [&](const Diagnostic& warning) {
         const Audience reader{.project = project, .preparing = true};
-        remark("warning: " + worded_with_operation(warning, reader));
+        warn(worded_with_operation(warning, reader));
     });
     const PrepareSummary made = prepare({.input = input_options(arguments.input, arguments.name),
                                          .purpose = arguments.purpose,

@@ -12,6 +12,7 @@
 #include "workbench/case/json_text.h"
 #include "workbench/commands/commands.h"
 #include "workbench/commands/console.h"
+#include "workbench/commands/messages.h"
 #include "workbench/operations/table.h"
 #include "workbench/prepare/prepared_purposes.h"
 #include "workbench/prepare/recipe.h"
@@ -309,7 +310,7 @@ void print_edit(const LogEntry& entry) {
 void remark_warnings(const LogEntry& entry, const Arguments& given, const std::string& project) {
     if (!entry.result) return;
     for (const Diagnostic& warning : all_warnings(entry, given))
-        remark("warning: " + worded(warning, {.project = project}));
+        warn(worded(warning, {.project = project}));
 }
 
 const EditRecord& edit_of(const Snapshot& now, EditId id) {

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "geometry/kernel/amounts.h"
 #include "geometry/kernel/bare_name.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/pending_files.h"
@@ -13,6 +14,7 @@
 #include "workbench/case/json_text.h"
 #include "workbench/commands/commands.h"
 #include "workbench/commands/console.h"
+#include "workbench/commands/messages.h"
 #include "workbench/operations/table.h"
 #include "workbench/project/project.h"
 #include "workbench/review/finding_items.h"
@@ -72,8 +74,7 @@ Json write_page(Session& session, const ReviewArguments& arguments, const Progre
     PendingFiles files;
     (void)files.add_text(arguments.page, page.html);
     files.commit();
-    remark(bare_name(arguments.page) + ": a page for reviewers, " +
-           formatted(static_cast<double>(page.html.size()) / 1e6, "%.1f MB"));
+    remark(bare_name(arguments.page) + ": a page for reviewers, " + size_text(page.html.size()));
     return page.queue;
 }
 

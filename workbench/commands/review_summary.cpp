@@ -7,6 +7,7 @@
 #include "workbench/case/json_text.h"
 #include "workbench/commands/commands.h"
 #include "workbench/commands/console.h"
+#include "workbench/commands/messages.h"
 #include "workbench/review/cohort.h"
 
 namespace vesselbench {

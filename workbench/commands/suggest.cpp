@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "geometry/kernel/amounts.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/surface_distance.h"
 #include "geometry/kernel/wording.h"
@@ -13,6 +14,7 @@
 #include "workbench/case/operation.h"
 #include "workbench/commands/commands.h"
 #include "workbench/commands/console.h"
+#include "workbench/commands/messages.h"
 #include "workbench/operations/shared/foreign_surface.h"
 #include "workbench/prepare/prepared_purposes.h"
 #include "workbench/project/project.h"
@@ -224,7 +226,7 @@ void suggest_parameters(const SuggestOptions& options, const Progress& progress)
               << "searched: " << ranges_text(search.space()) << "; " << work["evaluations"]
               << " parameter sets, "
               << (subject.smoothing ? work["sweeps"].dump() + " iterations, " : "")
-              << formatted(work["seconds"].get<double>()) << " s"
+              << duration_text(work["seconds"].get<double>())
               << (search.chosen().on_gpu ? " on " + search.chosen().device_name : "") << "\n";
 }
 

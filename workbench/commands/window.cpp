@@ -9,7 +9,9 @@
 #include "geometry/kernel/whole_file.h"
 #include "gpu/png.h"
 #include "workbench/commands/commands.h"
+#include "workbench/commands/crash_report.h"
 #include "workbench/operations/table.h"
+#include "workbench/window/case/user_folders.h"
 #include "workbench/window/shell/glfw_shell.h"
 #include "workbench/window/shell/offscreen_shell.h"
 
@@ -74,7 +76,11 @@ double scale_for(int height) {
 }  // namespace
 
 void open_window(const WindowOptions& options, const std::stop_token& stop) {
-    run_window(app_options(), options.file, stop);
+    AppOptions app = app_options();
+    if (const auto crash = untold_crash(state_folder()))
+        app.notice = "The program crashed the last time. What it was doing is written to " +
+                     crash->string() + ", which is sent nowhere.";
+    run_window(std::move(app), options.file, stop);
 }
 
 void draw_screenshot(const WindowOptions& options) {

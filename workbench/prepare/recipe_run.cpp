@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/kernel/amounts.h"
 #include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
@@ -17,7 +18,7 @@ namespace vesselbench {
 namespace {
 
 std::string entry_text(const LogEntry& entry) {
-    const std::string seconds = formatted(entry.result ? entry.result->duration : 0.0, "%.1f s");
+    const std::string seconds = duration_text(entry.result ? entry.result->duration : 0.0);
     const std::string change = entry.result ? effect_text(*entry.result) : "";
     return to_string(entry.edit.place.step) + ": " + entry.edit.operation + " (" + seconds + ")" +
            (change.empty() ? "" : ": " + change);

@@ -22,6 +22,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "geometry/kernel/amounts.h"
 #include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
@@ -238,19 +239,13 @@ std::string how_it_ended(int status) {
     return "ended early (code " + std::to_string(WEXITSTATUS(status)) + ")";
 }
 
-std::string memory_text(std::uint64_t bytes) {
-    const bool giga = bytes >= std::uint64_t{1} << 30U;
-    return formatted(std::ldexp(static_cast<double>(bytes), giga ? -30 : -20)) +
-           (giga ? " GiB" : " MiB");
-}
-
 /// What a worker may need: all of it, or what reading its files may take.
 std::string memory_text(const WorkerOptions& options, const Operation& operation,
                         const Arguments& arguments) {
     const auto reading = reader_memory(operation, arguments);
     if (!reading || (options.memory_limit > 0 && options.memory_limit < *reading))
-        return memory_text(options.memory_limit);
-    return memory_text(*reading) + " for a file of this size (save it uncompressed if it is good)";
+        return size_text(options.memory_limit);
+    return size_text(*reading) + " for a file of this size (save it uncompressed if it is good)";
 }
 
 /// The worker's report of an error thrown by the operation.

@@ -59,7 +59,10 @@ struct App::Impl {
           thumbnails(options.wake, cache_of(options)),
           files(options.wake),
           device(options.device),
-          display_scale(options.display_scale) {}
+          display_scale(options.display_scale) {
+        if (!options.notice.empty())
+            place.document.tell(make_message(MessageKind::Warning, options.notice));
+    }
 
     /// Enlarged no further than the window has room for all of its parts.
     [[nodiscard]] float text_size() const {

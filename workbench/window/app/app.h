@@ -22,6 +22,7 @@ struct AppOptions {
     std::string device;               ///< name of the OpenGL device, for the status line
     double display_scale = 1.0;       ///< of the display: 2 where pixels are half as large
     LiveDevice live = {};             ///< device of live smoothing
+    std::string notice = {};          ///< a warning that it begins with; empty: none
 };
 
 /// The window's content. It draws into the current ImGui and OpenGL contexts, and knows nothing of

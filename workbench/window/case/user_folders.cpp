@@ -59,6 +59,11 @@ fs::path cache_folder() {
     return (given.empty() ? home_folder() / ".cache" : given) / "vesselbench";
 }
 
+fs::path state_folder() {
+    const fs::path given = from_environment("XDG_STATE_HOME");
+    return (given.empty() ? home_folder() / ".local" / "state" : given) / "vesselbench";
+}
+
 fs::path documents_folder() {
     const fs::path given = from_environment("XDG_DOCUMENTS_DIR");
     if (is_folder(given)) return given;

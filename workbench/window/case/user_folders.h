@@ -11,6 +11,9 @@ namespace vesselbench {
 /// $XDG_CACHE_HOME/vesselbench, or its default below the home folder. It may not exist.
 [[nodiscard]] std::filesystem::path cache_folder();
 
+/// $XDG_STATE_HOME/vesselbench, or its default below the home folder. It may not exist.
+[[nodiscard]] std::filesystem::path state_folder();
+
 /// $XDG_DOCUMENTS_DIR, else Documents in the home folder if it exists, else the home folder.
 [[nodiscard]] std::filesystem::path documents_folder();
 
