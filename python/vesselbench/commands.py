@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from .arguments import Argument, Option, option_words, parameter_words, setting_words
-from .errors import ModelRefused, VesselbenchError
+from .errors import ModelRefused, UnexpectedAnswer, VesselbenchError
 from .program import PathLike, Program, answer, output_of
 from .project import Prepared, Project
 from .reading import read, read_all
@@ -129,7 +129,11 @@ def doctor(*, program: Program = None) -> tuple[Check, ...]:
 
 def version(*, program: Program = None) -> str:
     """Of the program."""
-    return output_of(["--version"], program).stdout.split()[-1]
+    done = output_of(["--version"], program)
+    words = done.stdout.split()
+    if done.returncode != 0 or not words:
+        raise UnexpectedAnswer(f"{done.args[0]} printed no version", command=tuple(done.args))
+    return words[-1]
 
 
 def run(command: str, *positionals: PathLike, parameters: Mapping[str, Argument] | None = None, program: Program = None,

@@ -226,6 +226,13 @@ class Log(Result):
     edits: tuple[Edit, ...]  #: in their order
     measures: tuple[Mapping[str, Any], ...]  #: kept in the window
 
+    def last(self, operation: str) -> Edit:
+        """The last edit of this operation. KeyError if there is none."""
+        for edit in reversed(self.edits):
+            if edit.operation == operation:
+                return edit
+        raise KeyError(operation)
+
 
 @dataclass(frozen=True)
 class Moved(Result):
