@@ -59,9 +59,9 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libegl1, libgl1-mesa-dri")  # opened at run time
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "openssh-client")        # verifies reviewers' signatures
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "openfoam, python3-vesselbench")
-set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "workbench that makes models of blood vessels fit for use")
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
-"vesselbench turns patients' vessel images or raw vessel surfaces, such as
+"workbench that makes models of blood vessels fit for use
+vesselbench turns patients' vessel images or raw vessel surfaces, such as
 those of cerebral aneurysms, into models for flow simulation (closed, smooth,
 capped surfaces and tetrahedral meshes) and for printing (watertight). It has
 a window and a command line; every edit can be undone, replayed and reviewed.")

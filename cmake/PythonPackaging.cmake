@@ -24,7 +24,7 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
   "${CMAKE_SOURCE_DIR}/packaging/python/postinst;${CMAKE_SOURCE_DIR}/packaging/python/prerm")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION
-"Python functions for vesselbench, a workbench for models of blood vessels
+"Python functions for vesselbench, which makes models of blood vessels
 Runs the commands of vesselbench from Python: preparing vessel images and
 surfaces for flow simulation and printing, editing projects, measuring. The
 functions return typed results, and raise typed errors.")

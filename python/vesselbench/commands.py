@@ -14,7 +14,7 @@ from typing import Any
 from .arguments import Argument, Option, option_words, parameter_words, setting_words
 from .errors import ModelRefused, UnexpectedAnswer, VesselbenchError
 from .program import PathLike, Program, answer, output_of
-from .project import Prepared, Project
+from .project import Prepared
 from .reading import read, read_all
 from .results import Batch, Centerlines, Check, End, Measures, Operation, Phantom
 
@@ -144,7 +144,3 @@ def run(command: str, *positionals: PathLike, parameters: Mapping[str, Argument]
     """
     words = [os.fspath(word) for word in positionals] + parameter_words(parameters or {})
     return answer(command, option_words(options), words, program)
-
-
-__all__ = ["Project", "batch", "centerlines", "doctor", "ends", "measure", "operation", "operations", "phantom", "picture",
-           "prepare", "run", "version"]

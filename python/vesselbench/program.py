@@ -1,7 +1,6 @@
 """Finding and running the program."""
 from __future__ import annotations
 
-import contextlib
 import json
 import os
 import shutil
@@ -42,7 +41,7 @@ def output_of(words: Sequence[str], program: Program = None) -> subprocess.Compl
                                    encoding="utf-8", errors="replace")
     except OSError as error:
         raise ProgramNotFound(f"{command[0]} cannot be run: {error.strerror}", command=tuple(command)) from error
-    with process:
+    with process:  # which waits for its end, too
         try:
             output, errors = process.communicate()
         except BaseException:
@@ -59,11 +58,6 @@ def _stop(process: subprocess.Popen[str]) -> None:
         process.kill()
         if not isinstance(error, subprocess.TimeoutExpired):
             raise
-    finally:
-        for pipe in (process.stdout, process.stderr):
-            if pipe:
-                with contextlib.suppress(OSError):
-                    pipe.close()
 
 
 def answer(command: str, options: Sequence[str], positionals: Sequence[str], program: Program = None) -> dict[str, Any]:

@@ -5,7 +5,7 @@ import json
 import os
 import tempfile
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -158,7 +158,7 @@ class Prepared(Result):
     project: Project
     products: tuple[str, ...]  #: names of files in the folder
     warnings: tuple[str, ...]
-    diagnostics: tuple[Diagnostic, ...]  #: the warnings in parts
+    diagnostics: tuple[Diagnostic, ...] = field(repr=False)  #: the warnings in parts
 
     @classmethod
     def of(cls, document: Mapping[str, Any], folder: Path, program: Program) -> Prepared:

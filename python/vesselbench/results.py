@@ -209,12 +209,12 @@ class Edit(Result):
     note: str
     status: str  #: done, pending, stale
     reason: str  #: why it is stale
-    resolved: Mapping[str, Any] = field(default_factory=dict)  #: all arguments, with what the operation chose
+    resolved: Mapping[str, Any] = field(default_factory=dict, repr=False)  #: all arguments, with what the operation chose
     duration_s: float | None = None
     warnings: tuple[str, ...] = ()
-    diagnostics: tuple[Diagnostic, ...] = ()  #: the warnings in parts
+    diagnostics: tuple[Diagnostic, ...] = field(default=(), repr=False)  #: the warnings in parts
     change: Change | None = None
-    report: Mapping[str, Any] | None = None  #: figures that only this operation knows
+    report: Mapping[str, Any] | None = field(default=None, repr=False)  #: figures that only this operation knows
     pending: tuple[int, ...] = ()  #: edits that run again when their result is needed (apply, change)
 
 

@@ -99,29 +99,32 @@ def wait_for(what, seconds=30.0):
 
 
 class Interrupted(InFolder):
-    """Python alone gets the signal, as a notebook's kernel does."""
 
-    def interrupt(self, script, program, started):
+    def interrupt(self, script, program, started, send=os.kill):
         """Runs lines of Python until `started`, interrupts them. Returns their exit code and what the program had started."""
         python = subprocess.Popen([sys.executable, "-c", script], env=os.environ | {"VESSELBENCH": str(program)},
                                   stderr=subprocess.DEVNULL, start_new_session=True)
         try:
             wait_for(started)
             below = descendants(python.pid)
-            python.send_signal(signal.SIGINT)
+            send(python.pid, signal.SIGINT)
             return python.wait(30), below
         finally:
             python.kill()
             python.wait()
 
     def test_the_program_and_its_workers_end(self):
+        """A notebook's kernel gets the signal alone; a terminal sends it to the program as well."""
         vesselbench.phantom("tube", "tube")
-        script = "import vesselbench; vesselbench.prepare('tube', 'cfd', 'out')"
-        code, below = self.interrupt(script, PROGRAM, lambda: Path("out/project.vbench").exists())
-        self.assertEqual(code, -signal.SIGINT)  # how Python ends by KeyboardInterrupt
-        self.assertTrue(below)
-        wait_for(lambda: not any(map(is_running, below)))
-        self.assertEqual(vesselbench.Project("out/project.vbench").log().read_only, "")
+        for send in (os.kill, os.killpg):
+            with self.subTest(send.__name__):
+                script = f"import vesselbench; vesselbench.prepare('tube', 'cfd', '{send.__name__}')"
+                project = Path(send.__name__, "project.vbench")
+                code, below = self.interrupt(script, PROGRAM, project.exists, send)
+                self.assertEqual(code, -signal.SIGINT)  # how Python ends by KeyboardInterrupt
+                self.assertTrue(below)
+                wait_for(lambda: not any(map(is_running, below)))
+                self.assertEqual(vesselbench.Project(project).log().read_only, "")
 
     def test_a_program_that_does_not_stop_is_killed(self):
         program = self.stand_in("trap '' TERM; touch started; while :; do sleep 0.05; done")
