@@ -2,7 +2,9 @@
 from __future__ import annotations
 
 import json
+import logging
 import os
+import shlex
 import shutil
 import subprocess
 from collections.abc import Mapping, Sequence
@@ -36,6 +38,7 @@ def find_program(program: Program = None) -> str:
 def output_of(words: Sequence[str], program: Program = None) -> subprocess.CompletedProcess[str]:
     """Runs the program to its end. An exception that comes meanwhile, such as KeyboardInterrupt, ends it first."""
     command = [find_program(program), *words]
+    logging.getLogger("vesselbench").debug(shlex.join(command))
     try:
         process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                    encoding="utf-8", errors="replace")

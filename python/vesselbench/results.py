@@ -4,11 +4,18 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from .reading import Result
 
 Point = tuple[float, float, float]
+T = TypeVar("T")
+
+
+def _named(named: Mapping[str, T], name: str, what: str) -> T:
+    if name not in named:
+        raise KeyError(f"there is no {what} '{name}', only {', '.join(named)}")
+    return named[name]
 
 
 # --- what is wrong, and what to do -----------------------------------------------------------------------------------
@@ -123,10 +130,7 @@ class Measures(Result):
 
     def patch(self, name: str) -> Patch:
         """The patch of this name. KeyError if there is none."""
-        for patch in self.patches:
-            if patch.name == name:
-                return patch
-        raise KeyError(name)
+        return _named({patch.name: patch for patch in self.patches}, name, "patch")
 
 
 # --- centerlines, ends -----------------------------------------------------------------------------------------------
@@ -228,10 +232,7 @@ class Log(Result):
 
     def last(self, operation: str) -> Edit:
         """The last edit of this operation. KeyError if there is none."""
-        for edit in reversed(self.edits):
-            if edit.operation == operation:
-                return edit
-        raise KeyError(operation)
+        return _named({edit.operation: edit for edit in self.edits}, operation, "edit")
 
 
 @dataclass(frozen=True)
@@ -416,10 +417,7 @@ class Batch(Result):
 
     def case(self, name: str) -> BatchCase:
         """The case of this name. KeyError if there is none."""
-        for case in self.cases:
-            if case.case == name:
-                return case
-        raise KeyError(name)
+        return _named({case.case: case for case in self.cases}, name, "case")
 
 
 # --- others ----------------------------------------------------------------------------------------------------------
@@ -452,10 +450,7 @@ class Operation(Result):
 
     def parameter(self, name: str) -> Parameter:
         """The parameter of this name. KeyError if there is none."""
-        for parameter in self.parameters:
-            if parameter.name == name:
-                return parameter
-        raise KeyError(name)
+        return _named({parameter.name: parameter for parameter in self.parameters}, name, "parameter")
 
 
 @dataclass(frozen=True)

@@ -35,7 +35,7 @@ class Surfaces(InFolder):
         self.assertIn("exact.vtp", tube.files)
         measures = vesselbench.measure(tube.folder / "exact.vtp")
         self.assertGreater(measures.patch("wall").area, 0.5 * measures.area)
-        with self.assertRaises(KeyError):
+        with self.assertRaisesRegex(KeyError, "there is no patch 'none', only wall"):
             measures.patch("none")
         picture = vesselbench.picture(tube.folder / "exact.vtp", "p.png", view=(-1, 0, 0), size=64)
         self.assertEqual(picture.read_bytes()[1:4], b"PNG")

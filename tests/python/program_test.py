@@ -54,6 +54,11 @@ class Answers(InFolder):
         with self.assertRaisesRegex(vesselbench.UnexpectedAnswer, "printed no version"):
             vesselbench.version(program=self.stand_in("true"))
 
+    def test_the_command_line_is_logged(self):
+        with self.assertLogs("vesselbench", "DEBUG") as logged:
+            vesselbench.run("log", "a b.vbench", program=self.stand_in("echo '{}'"))
+        self.assertRegex(logged.output[0], r"stand-in' log --json -- 'a b.vbench'$")
+
     def test_what_it_said_on_stderr_is_in_the_error(self):
         with self.assertRaisesRegex(vesselbench.UnexpectedAnswer, "no memory left"):
             vesselbench.measure("a.stl", program=self.stand_in("echo no memory left >&2; exit 1"))
