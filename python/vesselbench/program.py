@@ -1,13 +1,17 @@
 """Finding and running the program."""
 from __future__ import annotations
 
+import contextlib
 import json
 import logging
 import os
 import shlex
 import shutil
+import signal
 import subprocess
-from collections.abc import Mapping, Sequence
+import threading
+from collections.abc import Iterator, Mapping, Sequence
+from types import FrameType
 from typing import Any, Union
 
 from .errors import BadInput, Cancelled, ProgramNotFound, UnexpectedAnswer, UsageError, VesselbenchError
@@ -39,28 +43,52 @@ def output_of(words: Sequence[str], program: Program = None) -> subprocess.Compl
     """Runs the program to its end. An exception that comes meanwhile, such as KeyboardInterrupt, ends it first."""
     command = [find_program(program), *words]
     logging.getLogger("vesselbench").debug(shlex.join(command))
+    process = None
     try:
-        process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                                   encoding="utf-8", errors="replace")
-    except OSError as error:
-        raise ProgramNotFound(f"{command[0]} cannot be run: {error.strerror}", command=tuple(command)) from error
-    with process:  # which waits for its end, too
-        try:
-            output, errors = process.communicate()
-        except BaseException:
+        with _interrupts_later():
+            process = _started(command)
+        output, errors = process.communicate()
+    except BaseException:
+        if process:
             _stop(process)
-            raise
+        raise
     return subprocess.CompletedProcess(command, process.returncode, output, errors)
 
 
-def _stop(process: subprocess.Popen[str]) -> None:
-    process.terminate()  # it ends its workers and keeps what is finished
+def _started(command: list[str]) -> subprocess.Popen[str]:
     try:
-        process.wait(STOP_SECONDS)
-    except BaseException as error:  # a second Ctrl-C, too
-        process.kill()
-        if not isinstance(error, subprocess.TimeoutExpired):
-            raise
+        return subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                encoding="utf-8", errors="replace")
+    except OSError as error:
+        raise ProgramNotFound(f"{command[0]} cannot be run: {error.strerror}", command=tuple(command)) from error
+
+
+@contextlib.contextmanager
+def _interrupts_later() -> Iterator[None]:
+    """Holds a Ctrl-C back to the end: while a program starts, it would leave the program running that nobody knows yet."""
+    handler = signal.getsignal(signal.SIGINT)
+    if threading.current_thread() is not threading.main_thread() or not callable(handler):
+        yield  # another thread gets no signals
+        return
+    came: list[tuple[int, FrameType | None]] = []
+    signal.signal(signal.SIGINT, lambda number, frame: came.append((number, frame)))
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, handler)
+        if came:
+            handler(*came[0])
+
+
+def _stop(process: subprocess.Popen[str]) -> None:
+    with process:  # which closes its pipes and waits for its end
+        process.terminate()  # it ends its workers and keeps what is finished
+        try:
+            process.wait(STOP_SECONDS)
+        except BaseException as error:  # a second Ctrl-C, too
+            process.kill()
+            if not isinstance(error, subprocess.TimeoutExpired):
+                raise
 
 
 def answer(command: str, options: Sequence[str], positionals: Sequence[str], program: Program = None) -> dict[str, Any]:

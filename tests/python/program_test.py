@@ -5,9 +5,13 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from unittest import mock
 
 import vesselbench
 from support import PROGRAM, InFolder
+
+
+PATIENCE = 120.0  # seconds, for a machine that is busy
 
 
 class Finding(InFolder):
@@ -95,7 +99,7 @@ def is_running(process):
     return state != "Z"
 
 
-def wait_for(what, seconds=30.0):
+def wait_for(what, seconds=PATIENCE):
     end = time.monotonic() + seconds
     while not what():
         if time.monotonic() > end:
@@ -113,7 +117,7 @@ class Interrupted(InFolder):
             wait_for(started)
             below = descendants(python.pid)
             send(python.pid, signal.SIGINT)
-            return python.wait(30), below
+            return python.wait(PATIENCE), below
         finally:
             python.kill()
             python.wait()
@@ -128,6 +132,22 @@ class Interrupted(InFolder):
                 self.assertEqual(code, -signal.SIGINT)  # how Python ends by KeyboardInterrupt
                 self.assertTrue(below)
                 wait_for(lambda: not any(map(is_running, below)))
+
+    def test_a_program_that_is_just_starting_ends(self):
+        started = []
+
+        class Interrupting(subprocess.Popen):
+            def __init__(self, *words, **options):
+                super().__init__(*words, **options)
+                started.append(self)
+                os.kill(os.getpid(), signal.SIGINT)
+                time.sleep(0)  # where Python handles it
+
+        program = self.stand_in("while :; do sleep 0.05; done")
+        with mock.patch("subprocess.Popen", Interrupting), self.assertRaises(KeyboardInterrupt):
+            vesselbench.measure("a.stl", program=program)
+        self.assertEqual(started[0].returncode, -signal.SIGTERM)
+        self.assertIs(signal.getsignal(signal.SIGINT), signal.default_int_handler)
 
     def test_a_program_that_does_not_stop_is_killed(self):
         program = self.stand_in("trap '' TERM; touch started; while :; do sleep 0.05; done")
