@@ -1,5 +1,6 @@
-# Installation, and the Debian package that `cpack` makes of it (scripts/package).
+# Installation, and the Debian packages that `cpack` makes of it (scripts/package): one of each component, the program's here.
 include(GNUInstallDirs)
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME program)
 set(made ${CMAKE_BINARY_DIR}/packaging)
 set(docs ${CMAKE_INSTALL_DATADIR}/doc/vesselbench)
 
@@ -46,20 +47,24 @@ install(FILES packaging/copyright README.md CONTRIBUTING.md SECURITY.md ${made}/
 install(DIRECTORY docs DESTINATION ${docs})
 
 set(CPACK_GENERATOR DEB)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_ALL program python)
 set(CPACK_PACKAGE_NAME vesselbench)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_MAINTAINER "The vesselbench authors <vesselbench@example.org>")
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
-set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_DEPENDS "libegl1, libgl1-mesa-dri")  # opened at run time
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "openssh-client")        # verifies reviewers' signatures
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "openfoam")
-set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "workbench that makes models of blood vessels fit for use")
-set(CPACK_DEBIAN_PACKAGE_DESCRIPTION
-"vesselbench turns patients' vessel images or raw vessel surfaces, such as
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME vesselbench)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libegl1, libgl1-mesa-dri")  # opened at run time
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "openssh-client")        # verifies reviewers' signatures
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "openfoam, python3-vesselbench")
+set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
+"workbench that makes models of blood vessels fit for use
+vesselbench turns patients' vessel images or raw vessel surfaces, such as
 those of cerebral aneurysms, into models for flow simulation (closed, smooth,
 capped surfaces and tetrahedral meshes) and for printing (watertight). It has
 a window and a command line; every edit can be undone, replayed and reviewed.")
+include(PythonPackaging)
 include(CPack)

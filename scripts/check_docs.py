@@ -6,8 +6,9 @@
   scripts/check_docs.py run [--program P] [PAGE]...   the blocks of README.md and docs/user run
   scripts/check_docs.py site                   mkdocs makes a site without a network; its search answers what users ask
 
-A block ```sh is run in a folder of its page, in which `vesselbench prepare aneurysm --for cfd --out case` has run; a
-block ```sh no-run, whose files are the reader's, is only parsed. Exit code 1 with a line for each fault.
+A block ```sh is run in a folder of its page, in which `vesselbench prepare aneurysm --for cfd --out case` has run; then the
+page's blocks ```python, one after the other as one script. A block ```sh no-run, whose files are the reader's, is only
+parsed. Exit code 1 with a line for each fault.
 """
 import concurrent.futures
 import functools
@@ -222,12 +223,33 @@ def block_faults(page, program):
 
 # Running
 
+# Runs blocks of Python, [[place, text], ...], as one script whose traceback names their places.
+PYTHON = """
+import json, sys
+names = {"__name__": "__main__"}
+for place, text in json.load(sys.stdin):
+    exec(compile(text, place, "exec"), names)
+"""
+
+
+def python_faults(page, folder, environment):
+    """The lines before a block keep the page's line numbers in tracebacks."""
+    texts = [(page, "\n" * (number - 1) + "\n".join(lines)) for number, info, lines in blocks(page) if info == "python"]
+    if not texts:
+        return []
+    done = subprocess.run([sys.executable, "-c", PYTHON], input=json.dumps(texts), cwd=folder, text=True,
+                          env=dict(environment, PYTHONPATH=os.path.join(common.ROOT, "python")),
+                          stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    return [f"{page}: {done.stderr.strip()}"] if done.returncode != 0 else []
+
+
 def run_faults(page, program, prepared):
     """Runs the blocks of a page one after the other, with the page's folder as the current one."""
     faults = []
     with tempfile.TemporaryDirectory() as folder:
         shutil.copytree(prepared, folder, dirs_exist_ok=True)
-        environment = dict(os.environ, PATH=os.path.dirname(program.path) + ":" + os.environ["PATH"])
+        environment = dict(os.environ, PATH=os.path.dirname(program.path) + ":" + os.environ["PATH"],
+                           VESSELBENCH=program.path)
         for number, info, lines in blocks(page):
             if info != "sh":
                 continue
@@ -236,7 +258,7 @@ def run_faults(page, program, prepared):
                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
             if done.returncode != 0:
                 faults.append(f"{page}:{number}: exit code {done.returncode}\n" + "\n".join(done.stdout.split("\n")[-8:]))
-    return faults
+        return faults + python_faults(page, folder, environment)
 
 
 def run(program, chosen):
@@ -259,6 +281,7 @@ QUESTIONS = {  # what users type into the search, and the page that answers it
     "staircases": "user/smoothing.html",
     "DICOM": "user/formats.html",
     "exit code": "user/command-line.html",
+    "python": "user/scripting.html",
 }
 # Runs the site's own search: search/worker.js with lunr, as a browser's worker does.
 SEARCH = """

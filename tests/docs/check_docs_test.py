@@ -71,6 +71,15 @@ class Pages(unittest.TestCase):
         self.assertEqual(len(faults), 1)
         self.assertIn("exit code 3", faults[0])
 
+    def test_python_blocks_are_one_script(self):
+        page = self.write("```python", "import vesselbench", "version = vesselbench.version()", "```", "text",
+                          "```python", "assert version", "```", "", "```python", "", "assert not version", "```")
+        with tempfile.TemporaryDirectory() as prepared:
+            faults = check_docs.run_faults(page, PROGRAM, prepared)
+        self.assertEqual(len(faults), 1)
+        self.assertIn('page.md", line 12', faults[0])
+        self.assertTrue(faults[0].endswith("AssertionError"))
+
     def test_sources_in_a_network_are_faults(self):
         self.write('<a href="https://example.org">', '<script src="js/a.js">', '<link href="https://example.org/a.css" rel="x">',
                    "<img src=//example.org/a.png>", page="docs/user/page.html")
