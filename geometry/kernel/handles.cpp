@@ -10,6 +10,8 @@
 
 #include "geometry/kernel/disjoint_sets.h"
 #include "geometry/kernel/edges.h"
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
 #include "geometry/kernel/shortest_paths.h"
 
 namespace vesselbench {
@@ -238,6 +240,9 @@ private:
 }  // namespace
 
 std::vector<SurfaceHandle> handles_of(const Surface& surface, const Progress& cancel) {
+    const Connectivity found = connectivity(*surface.topology);
+    if (!found.manifold || !found.oriented)
+        throw InvalidInput("handles need a surface of one side, oriented: repair it first");
     return HandleSearch(surface, cancel).found();
 }
 

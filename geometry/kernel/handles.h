@@ -19,8 +19,7 @@ struct SurfaceHandle {
 /// the edges that neither a tree of shortest paths nor a tree of triangles that avoids it has;
 /// through vertices of that loop, again, until it gets no shorter. Open rims count as filled.
 /// Source: Erickson, Whittlesey, "Greedy optimal homotopy and homology generators", SODA 2005.
-/// \param surface 2-manifold, oriented
-/// \throw Cancelled if the user cancels
+/// \throw InvalidInput unless the surface is a 2-manifold and oriented; Cancelled if the user cancels
 [[nodiscard]] std::vector<SurfaceHandle> handles_of(const Surface& surface,
                                                     const Progress& cancel = {});
 

@@ -163,11 +163,12 @@ Attempt attempt(const Surface& surface, const SurfaceDistance& places, const Vec
 }  // namespace
 
 ContactZone contact_zone(const Surface& surface, const SurfaceDistance& places, const Vec3& centre,
-                         double beyond) {
+                         double beyond, const Progress& cancel) {
     const double largest = bounds(surface).diagonal();
     std::size_t most = 0;
     double reach = kFirst * mean_edge_length(surface);
     for (; reach < largest; reach *= kGrowth) {
+        cancel.check_cancelled();
         Attempt first = attempt(surface, places, centre, reach);
         most = std::max(most, first.rims);
         if (first.rims > kMostRims) break;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "geometry/editing/local_part.h"
+#include "geometry/kernel/progress.h"
 #include "geometry/kernel/surface.h"
 #include "geometry/kernel/surface_distance.h"
 
@@ -31,8 +32,8 @@ struct ContactZone {
 /// \param places of the surface
 /// \param beyond that ball, at most [radii of the widest arm]
 /// \throw DiagnosedFailure "contact-without-arms" with how many there are instead: a tip or a
-/// furcation is near, or there is only one vessel
+/// furcation is near, or there is only one vessel; Cancelled if the user cancels
 [[nodiscard]] ContactZone contact_zone(const Surface& surface, const SurfaceDistance& places,
-                                       const Vec3& centre, double beyond);
+                                       const Vec3& centre, double beyond, const Progress& cancel);
 
 }  // namespace vesselbench

@@ -78,7 +78,7 @@ struct Found {
 
 Found found_at(const Surface& surface, const SurfaceDistance& places, const Vec3& at,
                const SeparateParameters& parameters, double beyond, const Progress& progress) {
-    Found found{.zone = contact_zone(surface, places, at, beyond)};
+    Found found{.zone = contact_zone(surface, places, at, beyond, progress)};
     found.twins = parameters.vessel ? named_twins(found.zone, *parameters.vessel)
                                     : decided_twins(found.zone, progress);
     found.bridge = contact_bridge(found.zone, found.twins);

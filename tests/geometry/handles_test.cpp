@@ -3,9 +3,12 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include <catch2/catch.hpp>
 
+#include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
 #include "tests/support/iso_surface.h"
 #include "tests/support/shapes.h"
@@ -32,6 +35,15 @@ SCENARIO("A torus is one handle, as wide as its tube", "[geometry][handles]") {
     CHECK(handles[0].length < 2.0 * std::numbers::pi * kRing);
     CHECK(std::hypot(handles[0].centre.x(), handles[0].centre.y()) == Approx(kRing).epsilon(0.1));
     CHECK(handles_of(icosphere(5.0, 3)).empty());
+}
+
+SCENARIO("Handles of a surface that is not oriented are refused", "[geometry][handles]") {
+    const Surface ball = icosphere(5.0, 1);
+    std::vector<Triangle> triangles(ball.topology->triangles().begin(),
+                                    ball.topology->triangles().end());
+    std::swap(triangles.front()[0], triangles.front()[1]);
+    const Surface turned = make_surface(ball.points(), triangles);
+    CHECK_THROWS_AS(handles_of(turned), InvalidInput);
 }
 
 SCENARIO("A thread between two vessels is where a handle is named", "[geometry][handles]") {

@@ -68,9 +68,12 @@ std::string cost_text(const std::vector<PlannedCase>& cases, std::size_t jobs) {
     if (costs.empty()) return "";
     const double seconds = mean_of(costs, &Cost::seconds);
     std::ranges::sort(costs, {}, &Cost::peak_mib);
-    return "by " + counted(costs.size(), "case") + ": " +
-           formatted(3600.0 * static_cast<double>(jobs) / seconds, "%.0f cases an hour with ") +
-           counted(jobs, "job") + " (" + duration_text(seconds) + " a case), memory " +
+    const std::string each = duration_text(seconds) + " a case";
+    const double hourly = 3600.0 * static_cast<double>(jobs) / seconds;
+    const std::string pace = jobs == 0 ? each
+                                       : formatted(hourly, "%.0f cases an hour with ") +
+                                             counted(jobs, "job") + " (" + each + ")";
+    return "by " + counted(costs.size(), "case") + ": " + pace + ", memory " +
            mebibytes_text(costs[costs.size() / 2].peak_mib) + " a case (median), " +
            mebibytes_text(costs.back().peak_mib) + " at most";
 }
@@ -88,8 +91,9 @@ std::string estimate_text(const std::vector<PlannedCase>& cases, std::size_t job
         }
     if (left == 0) return "";
     return counted(left, "case") + " left: about " +
-           duration_text(seconds / static_cast<double>(jobs)) + " with " + counted(jobs, "job") +
-           ", by the " + (line.slope > 0.0 ? "times and sizes" : "mean time") + " of " +
+           duration_text(seconds / static_cast<double>(std::max<std::size_t>(jobs, 1))) + " with " +
+           counted(std::max<std::size_t>(jobs, 1), "job") + ", by the " +
+           (line.slope > 0.0 ? "times and sizes" : "mean time") + " of " +
            counted(costs.size(), "finished case") +
            formatted(mean_error(line, costs), ", which it misses by %.1f s on average");
 }

@@ -110,7 +110,7 @@ void print_result(const BatchResult& result, const BatchArguments& arguments) {
     const fs::path out = arguments.out;
     std::cout << "\ntable:  " << (out / "table.html").string() << ", "
               << (out / "table.csv").string() << "\n";
-    const std::string cost = cost_text(result.cases, std::max<std::size_t>(arguments.jobs, 1));
+    const std::string cost = cost_text(result.cases, options_of(arguments).jobs);
     if (!cost.empty()) std::cout << "cost:   " << cost << "\n";
 }
 
@@ -128,7 +128,7 @@ bool prepare_cases(const BatchArguments& arguments, const Progress& progress) {
         if (arguments.json)
             std::cout << text_from_json(table_json(batch_table(plans, options)), 2) << "\n";
         else
-            print_plan(plans, std::max<std::size_t>(options.jobs, 1));
+            print_plan(plans, options.jobs);
         return true;
     }
     const BatchResult result = run_batch(cases, options, engine_of(arguments, options, progress));

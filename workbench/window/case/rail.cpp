@@ -47,13 +47,6 @@ RailEdit rail_edit(const LogEntry& entry) {
     return row;
 }
 
-/// The review is no operation's step.
-bool has_operation(Step step) {
-    return step == Step::Review || std::ranges::any_of(operation_table(), [&](const auto& each) {
-               return each.usual_step == step;
-           });
-}
-
 bool is_stroke(const RailEdit& edit) {
     const Operation* operation = known_operation(edit.operation);
     return operation != nullptr && is_brush(*operation);
@@ -76,8 +69,7 @@ std::vector<RailStep> empty_rail() {
     for (std::size_t i = 0; i < kSteps.size(); ++i)
         rail.push_back({.step = static_cast<Step>(i + 1),
                         .title = kSteps[i].title,
-                        .purpose = kSteps[i].purpose,
-                        .in_use = has_operation(static_cast<Step>(i + 1))});
+                        .purpose = kSteps[i].purpose});
     return rail;
 }
 
@@ -87,10 +79,8 @@ std::vector<RailStep> rail_of(const Snapshot& snapshot, const std::string& varia
         if (is_part_of(entry.edit.place, variant))
             rail.at(static_cast<std::size_t>(entry.edit.place.step) - 1)
                 .edits.push_back(rail_edit(entry));
-    for (RailStep& step : rail) {
+    for (RailStep& step : rail)
         step.state = state_of(step, {.first = 0, .count = step.edits.size()});
-        step.in_use = step.in_use || !step.edits.empty();
-    }
     return rail;
 }
 

@@ -29,7 +29,6 @@ struct RailStep {
     std::string purpose;  ///< what it is for, one line
     StepState state = StepState::Empty;
     std::vector<RailEdit> edits;
-    bool in_use = true;  ///< false: no operation belongs to it, and it has no edit
 };
 
 /// Edits of a step that a list shows in one row: strokes of one brush that follow one another, or

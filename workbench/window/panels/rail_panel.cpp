@@ -158,7 +158,6 @@ void draw_rail(PanelContext& c, const ScreenRect& rect) {
     group_heading(c.ui, "Steps");
     ImGui::Dummy({0, c.ui.grid(0.25F)});
     for (const RailStep& step : c.place.rail()) {
-        if (!step.in_use) continue;
         draw_step(c, step);
         draw_edits(c, step);
     }
