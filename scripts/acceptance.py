@@ -3,8 +3,8 @@
 the products itself and with OpenFOAM and PrusaSlicer, and writes the table docs/science/acceptance.md, with the forest's
 results from docs/science/forest.md beside it. A run of every case ends with one row of every page of figures measured again
 (`scripts/experiments.py --repeat` and so on), so that no page goes stale unseen, with the review page's tests in Firefox
-(`scripts/firefox`), with the package in a bare Debian 12 (`scripts/try_package`), and with batches that are killed at random
-(`scripts/batch_kills.py`) and run on Slurm (`scripts/batch_slurm.py`).
+(`scripts/firefox`), with the package in a bare Debian 12 (`scripts/try_package`) and its container (`scripts/try_container`),
+and with batches that are killed at random (`scripts/batch_kills.py`) and run on Slurm (`scripts/batch_slurm.py`).
 
   scripts/acceptance.py [--only NAME]... [--goal cfd|rp] [--out FOLDER] [--no-table] [--quick] [--no-solve]
   scripts/acceptance.py --forest       only renews the forest's part of docs/science/acceptance.md
@@ -72,6 +72,8 @@ QUICK = ("bundled aneurysm", "artery bifurcation", "vein", "small aneurysm (m)")
 # The scripts that write pages of figures and repeat one of their rows.
 REPEATS = [f"{name}.py --repeat" for name in ("experiments", "experiments_decimate", "experiments_flow", "experiments_suggest",
                                               "experiments_thin", "experiments_truth")]
+# The scripts that try the product as a whole.
+WHOLE = ["firefox", "try_package", "try_container", "batch_kills.py", "batch_slurm.py"]
 # The bundled case's mesh for a flow to be interpreted, not only to converge.
 FULL_MESH = ["--set", "remesh.edge=0.3", "--set", "tetrahedralize.cells=320000"]
 
@@ -485,7 +487,7 @@ def main():
     whole = not (options.quick or options.only or options.goal)
     if whole and not options.no_table:
         write_table(rows, os.path.join(ROOT, "docs", "science", "acceptance.md"), revision)
-    repeated = worst_code([*REPEATS, "firefox", "try_package", "batch_kills.py", "batch_slurm.py"]) if whole else 0
+    repeated = worst_code([*REPEATS, *WHOLE]) if whole else 0
     if repeated == 1 or tube or any(r["must"] and (r["code"] != 0 or r["failures"]) for r in rows):
         return 1
     return repeated if os.path.isdir(DATA) else 77
