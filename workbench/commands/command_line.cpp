@@ -15,6 +15,7 @@
 #include "workbench/commands/measuring_commands.h"
 #include "workbench/commands/preparing_commands.h"
 #include "workbench/commands/project_commands.h"
+#include "workbench/commands/recipe_commands.h"
 #include "workbench/commands/shell/shell_commands.h"
 #include "workbench/phantoms/phantom_json.h"
 #include "workbench/prepare/case_files.h"
@@ -99,6 +100,7 @@ void set_up(CommandLine& line) {
     add_window(line);
     add_preparing_commands(line);
     add_cohort_commands(line);
+    add_recipe_commands(line);
     add_project_commands(line);
     add_measuring_commands(line);
     add_operations(line);

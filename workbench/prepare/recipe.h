@@ -31,7 +31,8 @@ using Recipe = std::vector<RecipeEntry>;
 /// The use of a recipe: words that an entry's "when" may contain.
 using RecipeUse = std::vector<std::string>;  ///< of "surface" or "image", "mask", and the purpose
 
-/// Reads a recipe, a JSON list of entries. All of their keys but the first are optional:
+/// Reads the entries of a recipe, a JSON list (recipe_document.h reads what else its file may say).
+/// All of an entry's keys but the first are optional:
 ///
 ///     "operation": name           "arguments": {parameter: value}    "step": name
 ///     "optional": true|false      "otherwise": {parameter: value}    "unless_closed": true|false
