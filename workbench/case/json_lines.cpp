@@ -12,6 +12,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// The line in which the next character is, and that of the last one.
+struct LineCount {
+    std::size_t now = 1, before = 1;
+};
+
 /// Characters of a text, which counts the lines that were read.
 class CountingCharacters {
 public:
@@ -21,12 +26,13 @@ public:
     using pointer = const char*;
     using reference = const char&;
 
-    CountingCharacters(const char* at, std::size_t* line) : at_(at), line_(line) {}
+    CountingCharacters(const char* at, LineCount* lines) : at_(at), lines_(lines) {}
 
     reference operator*() const { return *at_; }
 
     CountingCharacters& operator++() {
-        if (*at_++ == '\n') ++*line_;
+        lines_->before = lines_->now;
+        if (*at_++ == '\n') ++lines_->now;
         return *this;
     }
 
@@ -40,30 +46,30 @@ public:
 
 private:
     const char* at_;
-    std::size_t* line_;
+    LineCount* lines_;
 };
 
-/// Notes the line at which the parser is when it reports a key, an object or a list. It may be one
-/// too far after a number, which ends where the next character is none of it.
+/// Notes the line at which the parser is when it reports something. It has read one character more
+/// after a number, which ends where the next character is none of it.
 class LineNotes : public nlohmann::json_sax<Json> {
 public:
-    explicit LineNotes(const std::size_t& line) : line_(line) {}
+    explicit LineNotes(const LineCount& count) : count_(count) {}
 
     std::map<std::string, std::size_t> lines;
 
-    bool null() override { return value(); }
+    bool null() override { return value(count_.now); }
 
-    bool boolean(bool) override { return value(); }
+    bool boolean(bool) override { return value(count_.now); }
 
-    bool number_integer(std::int64_t) override { return value(); }
+    bool number_integer(std::int64_t) override { return value(count_.before); }
 
-    bool number_unsigned(std::uint64_t) override { return value(); }
+    bool number_unsigned(std::uint64_t) override { return value(count_.before); }
 
-    bool number_float(double, const std::string&) override { return value(); }
+    bool number_float(double, const std::string&) override { return value(count_.before); }
 
-    bool string(std::string&) override { return value(); }
+    bool string(std::string&) override { return value(count_.now); }
 
-    bool binary(Json::binary_t&) override { return value(); }
+    bool binary(Json::binary_t&) override { return value(count_.now); }
 
     bool start_object(std::size_t) override { return begin(false); }
 
@@ -75,7 +81,7 @@ public:
 
     bool key(std::string& name) override {
         levels_.back().key = name;
-        lines.emplace(place(), line_);
+        lines.emplace(place(), count_.now);
         return true;
     }
 
@@ -97,32 +103,35 @@ private:
         return place;
     }
 
-    bool value() {
-        if (!levels_.empty() && levels_.back().is_list) ++levels_.back().index;
+    /// A value that is no key's is noted by its own line.
+    bool value(std::size_t line) {
+        if (levels_.empty() || !levels_.back().is_list) return true;
+        lines.emplace(place(), line);
+        ++levels_.back().index;
         return true;
     }
 
     bool begin(bool list) {
-        lines.emplace(place(), line_);
+        lines.emplace(place(), count_.now);
         levels_.push_back({.is_list = list});
         return true;
     }
 
     bool end() {
         levels_.pop_back();
-        return value();
+        return value(count_.now);
     }
 
-    const std::size_t& line_;
+    const LineCount& count_;
     std::vector<Level> levels_;
 };
 
 }  // namespace
 
 std::map<std::string, std::size_t> json_lines(std::string_view text) {
-    std::size_t line = 1;
-    LineNotes notes(line);
-    const CountingCharacters first(text.data(), &line), last(text.data() + text.size(), &line);
+    LineCount count;
+    LineNotes notes(count);
+    const CountingCharacters first(text.data(), &count), last(text.data() + text.size(), &count);
     Json::sax_parse(first, last, &notes, Json::input_format_t::json, true, true);
     return std::move(notes.lines);
 }

@@ -7,8 +7,8 @@
 
 namespace vesselbench {
 
-/// The lines of a JSON text, from 1 on, at which values begin: of each object and list, and of each
-/// value of an object. They are named by the keys and indices that lead to them, "/2/arguments".
+/// The lines of a JSON text, from 1 on, at which its values are; of an object's values, those of
+/// their keys. They are named by the keys and indices that lead to them, "/2/arguments".
 /// Comments are allowed. \pre the text is JSON
 [[nodiscard]] std::map<std::string, std::size_t> json_lines(std::string_view text);
 

@@ -1,6 +1,7 @@
 #include "workbench/prepare/edits_recipe.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -71,10 +72,10 @@ struct EditEntry {
     bool is_portable = true;  ///< without `bound`
 };
 
-EditEntry entry_of(const LogEntry& entry, const Operation& operation, const Snapshot& now) {
+EditEntry entry_of(const Operation& operation, Arguments arguments) {
     const bool loads_input =
         operation.recipe.loads && operation.recipe.loads != InputKind::Neighbour;
-    EditEntry edit{.arguments = arguments_of(entry, operation, now)};
+    EditEntry edit{.arguments = std::move(arguments)};
     for (const Parameter& parameter : operation.parameters) {
         if (!edit.arguments.has(parameter.name)) continue;
         if (loads_input && parameter.type == ParameterType::File) {
@@ -121,7 +122,8 @@ EditText text_of_edit(const LogEntry& entry, const Snapshot& now, bool portable)
     const Operation* operation = known_operation(entry.edit.operation);
     if (operation == nullptr || entry.status == EditStatus::Stale)
         return {comment(number + ", no longer applies and is left out"), ""};
-    EditEntry edit = entry_of(entry, *operation, now);
+    EditEntry edit =
+        entry_of(*operation, portable ? entry.edit.given : arguments_of(entry, *operation, now));
     EditText text;
     if (portable && !edit.is_portable) {
         if (!operation->recipe.loads)

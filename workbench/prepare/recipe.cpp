@@ -5,12 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/errors.h"
-#include "geometry/kernel/wording.h"
 #include "workbench/case/argument_texts.h"
-#include "workbench/case/near_names.h"
 #include "workbench/operations/table.h"
+#include "workbench/prepare/entry_reader.h"
 #include "workbench/prepare/recipe_document.h"
-#include "workbench/prepare/recipe_entry.h"
 
 namespace vesselbench {
 
@@ -39,20 +37,6 @@ void read_entries(const Json& list, const RecipeUse& use, Take take) {
 }
 
 }  // namespace
-
-Step step_of(const RecipeEntry& entry) {
-    return entry.step.value_or(entry.given.operation().usual_step);
-}
-
-Step step_from(const std::string& name) {
-    std::vector<std::string> names;
-    for (int step = 1; step <= static_cast<int>(Step::Review); ++step) {
-        names.push_back(to_string(static_cast<Step>(step)));
-        if (names.back() == name) return static_cast<Step>(step);
-    }
-    throw UsageError("there is no step '" + name + "'" + did_you_mean(name, names) +
-                     " (the steps are " + joined(names) + ")");
-}
 
 Recipe recipe_from_json(const Json& list, const RecipeUse& use) {
     Recipe recipe;

@@ -8,7 +8,6 @@
 #include "workbench/case/arguments_json.h"
 #include "workbench/case/parameter_texts.h"
 #include "workbench/operations/table.h"
-#include "workbench/prepare/recipe.h"
 
 namespace vesselbench {
 

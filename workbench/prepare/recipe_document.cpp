@@ -13,7 +13,7 @@
 #include "workbench/case/near_names.h"
 #include "workbench/case/purposes.h"
 #include "workbench/prepare/builtin_recipes.h"
-#include "workbench/prepare/recipe_entry.h"
+#include "workbench/prepare/entry_reader.h"
 
 namespace vesselbench {
 
@@ -27,12 +27,12 @@ const std::vector<std::string> kKeys = {"$schema", "title",  "description", "for
 
 /// The step of an entry, if it is one of an edit that can be read.
 std::optional<Step> step_in(const Json& entry) {
+    Json edit = Json::object();
+    for (const char* key : {"operation", "step"})
+        if (entry.contains(key)) edit[key] = entry[key];
     RecipeFaults ignored;
-    const auto read = read_change(Json{{"operation", entry.value("operation", Json())},
-                                       {"step", entry.value("step", Json("source"))}},
-                                  "", ignored);
-    if (!read) return std::nullopt;
-    return entry.contains("step") ? read->step : step_of(*read);
+    const auto read = read_change(edit, "", ignored);
+    return read ? std::optional(step_of(*read)) : std::nullopt;
 }
 
 /// Reads what is around the entries.

@@ -1,37 +1,34 @@
 #pragma once
 
-#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include <nlohmann/json_fwd.hpp>
-
-#include "workbench/prepare/recipe.h"
-#include "workbench/prepare/recipe_fault.h"
+#include "workbench/case/operation.h"
 
 namespace vesselbench {
 
-/// The words that an entry's "when" may contain, each also with the prefix no-.
-[[nodiscard]] std::vector<std::string> use_words();
-
-/// What an entry of a recipe says.
-struct ReadEntry {
-    bool used = true;                  ///< its "when" holds
-    std::size_t reviewers = 0;         ///< asked for by a gate: {"require": "accepted"}
-    std::optional<RecipeEntry> entry;  ///< none: a gate, or no known operation
+/// One edit of a recipe.
+struct RecipeEntry {
+    GivenArguments given;                     ///< also names the operation
+    std::optional<Step> step = std::nullopt;  ///< none: the operation's usual step
+    bool optional = false;  ///< if it cannot be done, a warning is given and the recipe continues
+    bool unless_closed = false;  ///< skipped if the surface has no border at that point
+    /// Skipped if such an edit was made, with these values among its resolved arguments.
+    std::optional<GivenArguments> unless_made = std::nullopt;
+    /// Replace some of the given ones if they cannot be done.
+    std::optional<GivenArguments> otherwise = std::nullopt;
 };
 
-/// Reads one entry as recipe_from_json() describes it.
-/// \param place of the entry, RecipeFault::place
-/// \param faults receives everything that is wrong about it; the rest is read
-[[nodiscard]] ReadEntry read_entry(const nlohmann::ordered_json& json, const RecipeUse& use,
-                                   const std::string& place, RecipeFaults& faults);
+using Recipe = std::vector<RecipeEntry>;
 
-/// Reads {"operation": name, "step": name, "arguments": {...}} with no other keys.
-/// \return none: it names no operation
-[[nodiscard]] std::optional<RecipeEntry> read_change(const nlohmann::ordered_json& json,
-                                                     const std::string& place,
-                                                     RecipeFaults& faults);
+/// The step of the edit that an entry becomes.
+[[nodiscard]] Step step_of(const RecipeEntry& entry);
+
+/// The use of a recipe: words that an entry's "when" may contain.
+using RecipeUse = std::vector<std::string>;  ///< of "surface" or "image", "mask", and the purpose
+
+/// \throw UsageError that lists the steps if there is none of this name
+[[nodiscard]] Step step_from(const std::string& name);
 
 }  // namespace vesselbench

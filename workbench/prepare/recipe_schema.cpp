@@ -7,8 +7,8 @@
 #include "workbench/case/parameter_texts.h"
 #include "workbench/case/purposes.h"
 #include "workbench/operations/table.h"
+#include "workbench/prepare/entry_reader.h"
 #include "workbench/prepare/recipe_document.h"
-#include "workbench/prepare/recipe_entry.h"
 
 namespace vesselbench {
 
