@@ -7,7 +7,7 @@ set(docs ${CMAKE_INSTALL_DATADIR}/doc/vesselbench)
 # The texts that follow from the program's tables are printed by the program.
 install(CODE "
   file(MAKE_DIRECTORY \"${made}\")
-  foreach(text IN ITEMS \"completion bash\" \"completion zsh\" \"completion fish\" manual)
+  foreach(text IN ITEMS \"completion bash\" \"completion zsh\" \"completion fish\" \"recipe schema\" manual)
     string(REPLACE \" \" \"-\" file \"\${text}\")
     separate_arguments(words UNIX_COMMAND \"\${text}\")
     execute_process(COMMAND \"${CMAKE_BINARY_DIR}/vesselbench\" \${words} OUTPUT_FILE \"${made}/\${file}\" COMMAND_ERROR_IS_FATAL ANY)
@@ -31,6 +31,7 @@ endif()
 configure_file(${CMAKE_SOURCE_DIR}/packaging/changelog.in ${made}/changelog @ONLY)
 
 install(TARGETS vesselbench RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(FILES ${made}/recipe-schema DESTINATION ${CMAKE_INSTALL_DATADIR}/vesselbench RENAME recipe.schema.json)
 install(DIRECTORY cases/aneurysm DESTINATION ${CMAKE_INSTALL_DATADIR}/vesselbench/cases)
 install(FILES ${made}/manual.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 RENAME vesselbench.1.gz)
 install(FILES ${made}/completion-bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME vesselbench)

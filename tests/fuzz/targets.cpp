@@ -28,6 +28,7 @@
 #include "workbench/phantoms/phantom_json.h"
 #include "workbench/prepare/input.h"
 #include "workbench/prepare/recipe.h"
+#include "workbench/prepare/recipe_document.h"
 #include "workbench/project/serialization.h"
 #include "workbench/project/stored_text.h"
 
@@ -74,7 +75,7 @@ void read_as_either(const fs::path& file) {
 }
 
 void read_as_recipe(const fs::path& file) {
-    const auto json = json_from_file(file);
+    const auto json = find_recipe(file.string()).entries;
     for (const RecipeUse& use : {RecipeUse{"surface", "cfd"}, RecipeUse{"image", "mask", "rp"}})
         (void)recipe_from_json(json, use);
 }

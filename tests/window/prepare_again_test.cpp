@@ -13,6 +13,8 @@
 #include "tests/support/shapes.h"
 #include "tests/window/window_support.h"
 #include "workbench/case/json_text.h"
+#include "workbench/prepare/edits_recipe.h"
+#include "workbench/prepare/recipe_document.h"
 #include "workbench/window/case/document.h"
 #include "workbench/window/case/rail.h"
 
@@ -231,4 +233,24 @@ SCENARIO("A recipe's draft keeps its changes while the same edits are to be made
     draft.follow(default_recipe({"surface", "cfd"}));
     CHECK_FALSE(draft.is_changed());
     CHECK(draft.error().empty());
+}
+
+SCENARIO("The edits of a case are saved as a recipe", "[window][prepare]") {
+    const auto shell = test_shell();
+    if (!shell) return;
+    open_and_wait(*shell, case_folder().string());
+    Workplace& place = shell->app().place();
+    place.document.apply("repair", {}, Step::Source);
+    REQUIRE(wait_until_idle(*shell));
+    shell->frame();
+    REQUIRE(shell->click_item("tool.save_recipe"));
+    CHECK(place.question() == FileQuestion::SaveEdits);
+    const fs::path file = fs::path(temporary_folder()) / "edits.json";
+    place.answer(file);
+    shell->frame();
+    const RecipeDocument recipe = find_recipe(file.string());
+    CHECK(recipe.text ==
+          recipe_of_edits(*place.document.snapshot(), place.document.variant(), false));
+    REQUIRE(recipe.entries.size() >= 1);
+    CHECK(recipe.entries.back()["operation"] == "repair");
 }

@@ -59,6 +59,19 @@ SCENARIO("JSON is read up to 64 levels and a limit of size", "[workbench][json]"
                Contains("more than 8000000 values"));
 }
 
+SCENARIO("Comments are allowed in texts that people write only", "[workbench][json]") {
+    const std::string text = "[1, // \"[{\n 2 /* \" *//* [ */, \"//\"]";
+    CHECK(json_from_text(text, "a", kLargestJsonFile, JsonComments::Ignored).size() == 3);
+    CHECK_THAT(error_of([&] { (void)json_from_text(text, "a"); }), Contains("line 1, column 5"));
+    const auto ignored = [](const std::string& comment) {
+        return error_of(
+            [&] { (void)json_from_text(comment, "a", kLargestJsonFile, JsonComments::Ignored); });
+    };
+    CHECK_THAT(ignored("[1] /* no end"), Contains("not valid JSON") || Contains("too early"));
+    CHECK_THAT(ignored("/**/" + nested(65)), Contains("64 deep"));
+    CHECK_THAT(ignored("// only this"), Contains("ends too early"));
+}
+
 SCENARIO("A mistake in JSON is shown by its line and column", "[workbench][json]") {
     CHECK_THAT(error_of([] { (void)json_from_text("{\n  \"a\": x\n}", "a.json"); }),
                Contains("a.json, line 2, column 8"));

@@ -72,12 +72,24 @@ SCENARIO("Resuming without the recipe follows the one that was given", "[workben
 SCENARIO("Kept recipes stand in place of the input's own", "[workbench][prepare]") {
     const std::filesystem::path project = temporary_folder() + "/project.vbench";
     const Session session = Session::create(project, {.find = find_operation});
-    const Json given = Json::parse(R"([{"operation": "load-neighbour",
-        "arguments": {"name": "bone", "file": "/somewhere/else/bone.stl"}}])");
+    const RecipeDocument given = recipe_document(R"([{"operation": "load-neighbour",
+        "arguments": {"name": "bone", "file": "/somewhere/else/bone.stl"}}])",
+                                                 "given.json");
     Input input;
     take_kept_recipes(input, project);
     CHECK_FALSE(input.recipes);
     keep_recipe(project, "cfd", given);
+    CHECK_THAT(kept_recipe_text(project, "cfd"), !Contains("somewhere"));
+    WHEN("it names no file") {
+        const std::string text = "// ours\n[{\"operation\": \"repair\"}]  // and no more\n";
+        keep_recipe(project, "rp", recipe_document(text, "ours.json"));
+        THEN("its text is kept with its comments") {
+            CHECK(kept_recipe_text(project, "rp") == text);
+            CHECK(kept_purposes(project) == Names{"cfd", "rp"});
+            take_kept_recipes(input, project);
+            CHECK(own_recipe(input, "rp")[0]["operation"] == "repair");
+        }
+    }
     WHEN("the case has none") {
         take_kept_recipes(input, project);
         THEN("the purpose has the kept one, with its file beside the project") {

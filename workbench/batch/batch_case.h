@@ -12,7 +12,7 @@ struct CaseOption {
     std::string name;         ///< "mask", without the dashes
     bool is_flag = false;     ///< it has no value
     bool repeatable = false;  ///< it may be given several times
-    bool is_file = false;     ///< its value is a file; `neighbour` may also have labels "7,8"
+    bool is_file = false;     ///< its values may be files, but see names_file()
 };
 
 /// A value of an option.

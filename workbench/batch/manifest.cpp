@@ -19,6 +19,7 @@
 #include "workbench/export/flow_parameters.h"
 #include "workbench/operations/table.h"
 #include "workbench/prepare/bundled_cases.h"
+#include "workbench/prepare/recipe_document.h"
 
 namespace vesselbench {
 
@@ -29,6 +30,7 @@ namespace fs = std::filesystem;
 constexpr const char* kCase = "case";
 constexpr const char* kInput = "input";
 constexpr const char* kSettings = "set";
+constexpr const char* kRecipe = "recipe";
 constexpr char kBetweenValues = ';';
 
 /// A column of the manifest.
@@ -108,10 +110,6 @@ std::vector<std::string> separated(const std::string& text) {
     return parts;
 }
 
-bool is_label_list(const std::string& text) {
-    return text.find_first_not_of("0123456789,") == std::string::npos;
-}
-
 class ManifestReader {
 public:
     ManifestReader(const fs::path& manifest, const CaseColumns& columns)
@@ -166,7 +164,7 @@ private:
     }
 
     void add_value(BatchCase& one, const CaseOption& option, const std::string& text) const {
-        const bool is_file = option.is_file && !(option.repeatable && is_label_list(text));
+        const bool is_file = names_file(option, text);
         one.values.push_back({option.name, is_file ? (folder_ / text).string() : text, is_file});
     }
 
@@ -206,7 +204,17 @@ private:
     std::map<std::string, std::size_t> lines_;  // of the names
 };
 
+bool is_label_list(const std::string& text) {
+    return text.find_first_not_of("0123456789,") == std::string::npos;
+}
+
 }  // namespace
+
+bool names_file(const CaseOption& option, const std::string& text) {
+    if (!option.is_file) return false;
+    if (option.name == kRecipe) return !is_bundled_recipe(text);
+    return !(option.repeatable && is_label_list(text));
+}
 
 std::string case_name_of(const fs::path& input) {
     const fs::path path = input.has_filename() ? input : input.parent_path();

@@ -32,6 +32,9 @@ struct CaseColumns {
     const std::filesystem::path& folder, const CaseColumns& columns,
     const std::function<void(const std::string&)>& skipped);
 
+/// True if the value of an option is a file: not labels, nor the name of a bundled recipe.
+[[nodiscard]] bool names_file(const CaseOption& option, const std::string& text);
+
 /// The name of a case made from an input, without folder and suffix, made plain.
 [[nodiscard]] std::string case_name_of(const std::filesystem::path& input);
 

@@ -26,12 +26,25 @@ std::string place_in(std::string_view text, std::size_t at) {
 /// Each value of a text takes up to 64 bytes of memory, but only two of the text.
 constexpr std::size_t kMostValues = 8'000'000;
 
+/// The end of the comments that begin there; the same place if none does.
+std::size_t after_comments(std::string_view text, std::size_t at) {
+    for (;;) {
+        const std::string_view begin = text.substr(at, 2);
+        if (begin != "//" && begin != "/*") return at;
+        const std::size_t end = text.find(begin == "//" ? "\n" : "*/", at + 2);
+        if (end == std::string_view::npos) return text.size();
+        at = begin == "//" ? end : end + 2;
+    }
+}
+
 /// The place of the first bracket that is too deep, or of the first value that is one too many; the
 /// end of the text if there is none.
-std::size_t first_excess(std::string_view text) {
+std::size_t first_excess(std::string_view text, JsonComments comments) {
     std::size_t depth = 0, values = 0;
     bool in_text = false;
     for (std::size_t i = 0; i < text.size(); ++i) {
+        if (comments == JsonComments::Ignored && !in_text) i = after_comments(text, i);
+        if (i == text.size()) break;
         const char c = text[i];
         if (in_text && c == '\\')
             ++i;
@@ -55,16 +68,16 @@ std::size_t first_excess(std::string_view text) {
 }  // namespace
 
 nlohmann::ordered_json json_from_text(std::string_view text, const std::string& name,
-                                      std::size_t largest) {
+                                      std::size_t largest, JsonComments comments) {
     if (text.size() > largest) too_large(name, text.size(), largest);
-    if (const std::size_t at = first_excess(text); at < text.size())
+    if (const std::size_t at = first_excess(text, comments); at < text.size())
         throw InvalidInput(name + place_in(text, at) +
                            (text[at] == ','
                                 ? ": there are more than " + std::to_string(kMostValues) + " values"
                                 : ": lists and objects are more than " +
                                       std::to_string(kDeepestJson) + " deep inside each other"));
     try {
-        return Json::parse(text);
+        return Json::parse(text, nullptr, true, comments == JsonComments::Ignored);
     } catch (const Json::parse_error& error) {
         const std::size_t at =
             std::min<std::size_t>(error.byte > 0 ? error.byte - 1 : 0, text.size());
@@ -76,11 +89,15 @@ nlohmann::ordered_json json_from_text(std::string_view text, const std::string& 
     }
 }
 
-nlohmann::ordered_json json_from_file(const std::filesystem::path& file) {
+std::string json_file_text(const std::filesystem::path& file) {
     std::error_code error;
     const std::uintmax_t size = std::filesystem::file_size(file, error);
     if (!error && size > kLargestJsonFile) too_large(bare_name(file), size, kLargestJsonFile);
-    return json_from_text(file_content(file), bare_name(file));
+    return file_content(file);
+}
+
+nlohmann::ordered_json json_from_file(const std::filesystem::path& file, JsonComments comments) {
+    return json_from_text(json_file_text(file), bare_name(file), kLargestJsonFile, comments);
 }
 
 nlohmann::ordered_json printable_json(Json json) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "workbench/batch/manifest.h"
 #include "workbench/commands/preparing_commands.h"
 
 namespace vesselbench {
@@ -53,7 +54,7 @@ CaseColumns columns_of(const std::vector<const CLI::Option*>& options) {
             continue;
         }
         for (const std::string& text : option->results())
-            columns.shared.push_back({declared.name, text, declared.is_file});
+            columns.shared.push_back({declared.name, text, names_file(declared, text)});
     }
     return columns;
 }

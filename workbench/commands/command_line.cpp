@@ -16,6 +16,7 @@
 #include "workbench/commands/measuring_commands.h"
 #include "workbench/commands/preparing_commands.h"
 #include "workbench/commands/project_commands.h"
+#include "workbench/commands/recipe_commands.h"
 #include "workbench/commands/shell/shell_commands.h"
 #include "workbench/phantoms/phantom_json.h"
 #include "workbench/prepare/case_files.h"
@@ -101,6 +102,7 @@ void set_up(CommandLine& line) {
     add_window(line);
     add_preparing_commands(line);
     add_cohort_commands(line);
+    add_recipe_commands(line);
     add_project_commands(line);
     add_measuring_commands(line);
     add_operations(line);

@@ -81,6 +81,28 @@ struct LogOptions {
 /// Prints steps, edits, authors, and what each changed.
 void show_log(const LogOptions& options);
 
+struct EditsRecipeOptions {
+    std::string project;
+    std::string variant;    ///< empty: variant_of()
+    bool portable = false;  ///< without what is of this case alone
+};
+
+/// Prints a project's edits as a recipe. Pending ones run first.
+void print_edits_recipe(const EditsRecipeOptions& options, const Progress& progress);
+
+struct RecipeOptions {
+    std::string action;                ///< of recipe_actions()
+    std::vector<std::string> recipes;  ///< files, bundled recipes or projects
+    std::string purpose;               ///< of a project's recipes; empty: the only one
+    bool json = false;
+};
+
+/// "list", "show" ...
+[[nodiscard]] std::vector<std::string> recipe_actions();
+
+/// Lists, shows, checks or compares recipes. \return the exit code
+int use_recipes(const RecipeOptions& options);
+
 /// Runs every edit again and compares. \return false if something differs
 bool replay_project(const LogOptions& options, const Progress& progress);
 

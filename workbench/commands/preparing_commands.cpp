@@ -6,6 +6,7 @@
 #include "workbench/case/purposes.h"
 #include "workbench/export/export_formats.h"
 #include "workbench/export/products.h"
+#include "workbench/prepare/recipe_document.h"
 
 namespace vesselbench {
 
@@ -157,8 +158,11 @@ void add_purpose(CLI::App& command, std::string& purpose) {
 void add_case_options(CLI::App& command, PrepareArguments& options) {
     add_input_options(command, options.input);
     add_neighbours(command, options.input);
-    command.add_option("--recipe", options.recipe, "JSON list of operations to use instead")
-        ->type_name("FILE");
+    command
+        .add_option("--recipe", options.recipe,
+                    "Operations to use instead of the default ones: a file, or a bundled recipe: " +
+                        joined(bundled_recipe_names()))
+        ->type_name("FILE|NAME");
     add_settings(command, options.settings);
     add_end_options(command, options.ends);
     add_names(command, options.author, options.name);

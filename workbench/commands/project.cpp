@@ -14,6 +14,7 @@
 #include "workbench/commands/console.h"
 #include "workbench/commands/messages.h"
 #include "workbench/operations/table.h"
+#include "workbench/prepare/edits_recipe.h"
 #include "workbench/prepare/prepared_purposes.h"
 #include "workbench/prepare/recipe.h"
 #include "workbench/report/log_json.h"
@@ -394,6 +395,14 @@ void note_edit(const NoteOptions& options) {
         std::cout << "edit " << edit_list({&edit})
                   << (edit.note.empty() ? " has no note" : ": \"" + printable(edit.note) + "\"")
                   << "\n";
+}
+
+void print_edits_recipe(const EditsRecipeOptions& options, const Progress& progress) {
+    Session session = open_for_reading(options.project);
+    const std::string variant =
+        variant_of(options.project, options.variant, *session.snapshot()->history);
+    static_cast<void>(session.scene(variant, progress));
+    std::cout << recipe_of_edits(*session.snapshot(), variant, options.portable);
 }
 
 void show_log(const LogOptions& options) {

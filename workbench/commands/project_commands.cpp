@@ -90,11 +90,31 @@ void add_note(CommandLine& line) {
 
 void add_log(CommandLine& line) {
     const auto options = std::make_shared<LogOptions>();
+    const auto recipe = std::make_shared<EditsRecipeOptions>();
+    const auto as_recipe = std::make_shared<bool>(false);
     CLI::App& command =
         add_command(line, "log", "List steps, edits, authors, and what each edit changed",
-                    [options] { return show_log(*options), 0; });
+                    [options, recipe, as_recipe, &line] {
+                        recipe->project = options->project;
+                        if (*as_recipe)
+                            print_edits_recipe(*recipe, line.progress);
+                        else
+                            show_log(*options);
+                        return 0;
+                    });
     add_project(command, options->project);
+    CLI::Option* asked = command.add_flag(
+        "--recipe", *as_recipe,
+        "Print the edits of a variant as a recipe, with which prepare makes the same model of the\n"
+        "same input; comments name what is of this case alone");
+    command
+        .add_flag("--portable", recipe->portable,
+                  "For other cases: leave out edits of places and files of this one")
+        ->needs(asked);
+    add_variant(command, recipe->variant, "Variant of the recipe: cfd, rp or a name");
+    command.get_option("--variant")->needs(asked);
     add_json(command, options->json);
+    asked->excludes(command.get_option("--json"));
 }
 
 void add_undo_and_redo(CommandLine& line) {

@@ -115,7 +115,8 @@ void fill_from_case(Input& input, const fs::path& folder, const Json& json,
 void read_case(Input& input, const fs::path& folder, const Progress& progress) {
     const std::string place = "case '" + folder.filename().string() + "': ";
     try {
-        fill_from_case(input, folder, json_from_file(folder / kCaseFile), progress);
+        fill_from_case(input, folder, json_from_file(folder / kCaseFile, JsonComments::Ignored),
+                       progress);
     } catch (const InvalidInput& error) {
         throw InvalidInput(place + error.what());
     } catch (const UsageError& error) {

@@ -21,6 +21,7 @@
 #include "workbench/prepare/model_check.h"
 #include "workbench/prepare/prepare_report.h"
 #include "workbench/prepare/prepared_purposes.h"
+#include "workbench/prepare/recipe_document.h"
 #include "workbench/prepare/recipe_warnings.h"
 #include "workbench/prepare/refusal_report.h"
 #include "workbench/prepare/result_folder.h"
@@ -66,15 +67,12 @@ std::string openings_text(const Surface& surface) {
     return joined(texts);
 }
 
-Json recipe_json_from(const PrepareOptions& options, const Input& input) {
-    if (!options.recipe.empty()) {
-        try {
-            return json_from_file(options.recipe);
-        } catch (const InvalidInput& error) {
-            throw UsageError(std::string("recipe: ") + error.what());
-        }
-    }
-    return own_recipe(input, options.purpose);
+/// None: no recipe was given.
+std::optional<RecipeDocument> given_recipe(const PrepareOptions& options) {
+    if (options.recipe.empty()) return std::nullopt;
+    RecipeDocument recipe = find_recipe(options.recipe);
+    require_purpose(recipe, options.purpose);
+    return recipe;
 }
 
 /// The recipe preceded by the edit that loads the input, with its files and units filled in.
@@ -296,10 +294,11 @@ PrepareSummary finished(Session& session, const Recipe& rest, const PrepareOptio
 /// What the project keeps of its preparation beside the edits.
 /// \return the number of reviewers who have to accept the model
 std::size_t begin_project(const PrepareOptions& options, const Input& input,
-                          const Json& recipe_json, const FlowSettings& flow) {
+                          const std::optional<RecipeDocument>& given, const Json& recipe_json,
+                          const FlowSettings& flow) {
     const fs::path project = options.out / kProjectFile;
     if (!options.resume) keep_recipes(project, input);
-    if (!options.recipe.empty()) keep_recipe(project, options.purpose, recipe_json);
+    if (given) keep_recipe(project, options.purpose, *given);
     keep_name(project, input);
     begin_purpose(project, options.purpose);
     if (!flow.stored().empty()) store_text(project, StoredText::Flow, flow.stored());
@@ -331,7 +330,8 @@ PrepareSummary prepare(const PrepareOptions& options, const Teller& tell,
     PrepareOptions for_recipe = options;
     FlowSettings flow(options.resume ? stored_text(project, StoredText::Flow) : "");
     flow.take(for_recipe.arguments);
-    const Json recipe_json = recipe_json_from(options, input);
+    const std::optional<RecipeDocument> given = given_recipe(options);
+    const Json recipe_json = given ? given->entries : own_recipe(input, options.purpose);
     const Recipe recipe = recipe_for(for_recipe, input, recipe_json);
     refuse_own_input(options, input);
     const ResultFolder folder(options.out);
@@ -354,7 +354,7 @@ PrepareSummary prepare(const PrepareOptions& options, const Teller& tell,
             rest = rest_in(session, recipe, for_recipe, prepared, tell);
             tell_flow(options, flow, tell);
         }
-        prepared.reviewers = begin_project(options, input, recipe_json, flow);
+        prepared.reviewers = begin_project(options, input, given, recipe_json, flow);
         return finished(session, rest, options, std::move(prepared), noting,
                         progress.part(0.02, 1.0));
     } catch (const std::exception& error) {

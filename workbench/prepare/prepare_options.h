@@ -10,8 +10,8 @@ namespace vesselbench {
 
 struct PrepareOptions {
     InputOptions input;
-    std::string purpose;                 ///< its name, see purposes()
-    std::string recipe;                  ///< JSON file; empty: the case's own, or the built-in one
+    std::string purpose;  ///< its name, see purposes()
+    std::string recipe;   ///< a bundled one or a file; empty: the case's own, or the default
     std::vector<std::string> arguments;  ///< "operation.parameter=value"
     std::filesystem::path out;           ///< folder of the results
     bool resume = false;                 ///< goes on in the folder's project

@@ -1,37 +1,17 @@
 #pragma once
 
-#include <optional>
+#include <cstddef>
 #include <span>
 #include <string>
-#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "workbench/case/operation.h"
+#include "workbench/prepare/recipe_entry.h"
 
 namespace vesselbench {
 
-/// One edit of a recipe.
-struct RecipeEntry {
-    GivenArguments given;                     ///< also names the operation
-    std::optional<Step> step = std::nullopt;  ///< none: the operation's usual step
-    bool optional = false;  ///< if it cannot be done, a warning is given and the recipe continues
-    bool unless_closed = false;  ///< skipped if the surface has no border at that point
-    /// Skipped if such an edit was made, with these values among its resolved arguments.
-    std::optional<GivenArguments> unless_made = std::nullopt;
-    /// Replace some of the given ones if they cannot be done.
-    std::optional<GivenArguments> otherwise = std::nullopt;
-};
-
-using Recipe = std::vector<RecipeEntry>;
-
-/// The step of the edit that an entry becomes.
-[[nodiscard]] Step step_of(const RecipeEntry& entry);
-
-/// The use of a recipe: words that an entry's "when" may contain.
-using RecipeUse = std::vector<std::string>;  ///< of "surface" or "image", "mask", and the purpose
-
-/// Reads a recipe, a JSON list of entries. All of their keys but the first are optional:
+/// Reads the entries of a recipe, a JSON list (recipe_document.h reads what else its file may say).
+/// All of an entry's keys but the first are optional:
 ///
 ///     "operation": name           "arguments": {parameter: value}    "step": name
 ///     "optional": true|false      "otherwise": {parameter: value}    "unless_closed": true|false
@@ -61,8 +41,5 @@ using RecipeUse = std::vector<std::string>;  ///< of "surface" or "image", "mask
 /// operation.
 /// \throw UsageError if a text is not of that form, or the recipe has no such operation
 void set_arguments(Recipe& recipe, std::span<const std::string> texts);
-
-/// \throw UsageError that lists the steps if there is none of this name
-[[nodiscard]] Step step_from(const std::string& name);
 
 }  // namespace vesselbench

@@ -4,8 +4,10 @@
 #include <utility>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/whole_file.h"
 #include "workbench/operations/table.h"
 #include "workbench/prepare/bundled_cases.h"
+#include "workbench/prepare/edits_recipe.h"
 #include "workbench/window/case/user_folders.h"
 #include "workbench/window/form/picked_text.h"
 
@@ -164,9 +166,9 @@ void Core::claim_view(const Feature& by) {
 
 // --- questions for a file
 
-void Core::save_recipe(const std::filesystem::path& file) {
+void Core::save_recipe(const std::filesystem::path& file, const std::string& text) {
     try {
-        write_recipe(file, recipe.recipe());
+        write_file(file, text);
         document.tell(make_message(MessageKind::Remark, "The recipe was saved: " + file.string()));
     } catch (const IoError& error) {
         document.tell(make_message(MessageKind::Error, error.what()));
@@ -200,7 +202,10 @@ void Core::answer(FileQuestion question, const std::filesystem::path& file) {
             for (const auto& feature : features.all()) feature->file_chosen(question, file);
             return;
         case FileQuestion::SaveRecipe:
-            return save_recipe(file);
+            return save_recipe(file, text_of_recipe(recipe.recipe()));
+        case FileQuestion::SaveEdits:
+            return save_recipe(file,
+                               recipe_of_edits(*document.snapshot(), document.variant(), false));
         case FileQuestion::None:
             return;
     }

@@ -130,7 +130,7 @@ private:
     void take_case();
     void renew_lists();
     void answer(FileQuestion question, const std::filesystem::path& file);
-    void save_recipe(const std::filesystem::path& file);
+    void save_recipe(const std::filesystem::path& file, const std::string& text);
     [[nodiscard]] bool update_places();
     void search_places(const Scene* scene, bool tips);
 

@@ -12,6 +12,7 @@ enum class FileQuestion {
     Picture,
     Measures,
     SaveRecipe,
+    SaveEdits,  ///< as a recipe
     ReviewPage,
     Verdicts  ///< to be read
 };

@@ -4,7 +4,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "geometry/kernel/whole_file.h"
 #include "workbench/case/json_text.h"
 
 namespace vesselbench {
@@ -46,8 +45,8 @@ Recipe RecipeDraft::recipe() const {
     return recipe;
 }
 
-void write_recipe(const std::filesystem::path& file, const Recipe& recipe) {
-    write_file(file, text_from_json(recipe_to_json(recipe), 2) + "\n");
+std::string text_of_recipe(const Recipe& recipe) {
+    return text_from_json(recipe_to_json(recipe), 2) + "\n";
 }
 
 }  // namespace vesselbench

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -41,8 +40,7 @@ private:
     std::vector<OperationForm> forms_;
 };
 
-/// Writes a recipe as `prepare --recipe` reads it.
-/// \throw IoError
-void write_recipe(const std::filesystem::path& file, const Recipe& recipe);
+/// A recipe as `prepare --recipe` reads it.
+[[nodiscard]] std::string text_of_recipe(const Recipe& recipe);
 
 }  // namespace vesselbench

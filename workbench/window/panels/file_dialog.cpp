@@ -21,13 +21,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
+bool is_recipe(FileQuestion question) {
+    return question == FileQuestion::SaveRecipe || question == FileQuestion::SaveEdits;
+}
+
 std::vector<std::string> suffixes_for(FileQuestion question) {
     if (question == FileQuestion::SaveCopy) return {".vbench"};
     if (question == FileQuestion::Picture) return {".png"};
     if (question == FileQuestion::Measures) return {".csv"};
     if (question == FileQuestion::ReviewPage) return {".html"};
-    if (question == FileQuestion::SaveRecipe || question == FileQuestion::Verdicts)
-        return {".json"};
+    if (is_recipe(question) || question == FileQuestion::Verdicts) return {".json"};
     if (question == FileQuestion::Open) return openable_suffixes();
     if (question == FileQuestion::Parameter) {
         std::vector<std::string> suffixes = openable_suffixes();
@@ -56,6 +59,8 @@ const char* title_of(FileQuestion question) {
             return "Export the measurements";
         case FileQuestion::SaveRecipe:
             return "Save the recipe";
+        case FileQuestion::SaveEdits:
+            return "Save the edits as a recipe";
         case FileQuestion::ReviewPage:
             return "Write a page for reviewers";
         case FileQuestion::Verdicts:
@@ -80,7 +85,7 @@ bool can_have_volume(const Document& document) {
 const char* ending_for(FileQuestion question, bool volume) {
     if (question == FileQuestion::Picture) return ".png";
     if (question == FileQuestion::Measures) return ".csv";
-    if (question == FileQuestion::SaveRecipe) return " recipe.json";
+    if (is_recipe(question)) return " recipe.json";
     if (question == FileQuestion::ReviewPage) return " review.html";
     if (question != FileQuestion::Export) return " copy.vbench";
     return volume ? ".vtu" : ".stl";
@@ -100,7 +105,7 @@ std::vector<ExportFormat> listed_formats(bool volume) {
 std::string needed_suffix(FileQuestion question) {
     if (question == FileQuestion::SaveCopy) return ".vbench";
     if (question == FileQuestion::Measures) return ".csv";
-    if (question == FileQuestion::SaveRecipe) return ".json";
+    if (is_recipe(question)) return ".json";
     if (question == FileQuestion::ReviewPage) return ".html";
     return question == FileQuestion::Picture ? ".png" : "";
 }
@@ -140,7 +145,7 @@ std::string size_text(std::uintmax_t bytes) {
 bool FileDialog::writes() const {
     return question_ == FileQuestion::SaveCopy || question_ == FileQuestion::Export ||
            question_ == FileQuestion::Picture || question_ == FileQuestion::Measures ||
-           question_ == FileQuestion::SaveRecipe || question_ == FileQuestion::ReviewPage;
+           is_recipe(question_) || question_ == FileQuestion::ReviewPage;
 }
 
 void FileDialog::enter(const fs::path& folder) {

@@ -32,6 +32,10 @@ void draw_files(PanelContext& c) {
                     "Save as: a copy of the project. The project itself is written at every edit.",
                     open))
         place.ask(FileQuestion::SaveCopy);
+    ImGui::SameLine();
+    if (icon_button(c.ui, "tool.save_recipe", icons::kFile,
+                    "Save the edits as a recipe, with which the same model can be made", open))
+        place.ask(FileQuestion::SaveEdits);
 }
 
 void draw_undo(PanelContext& c) {
