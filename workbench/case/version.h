@@ -4,7 +4,7 @@
 
 namespace vesselbench {
 
-/// Version of this build, "0.1.0".
+/// Version of this build, "0.2.0".
 [[nodiscard]] std::string version();
 
 }  // namespace vesselbench
