@@ -22,7 +22,7 @@ std::string size_text(std::uint64_t bytes) {
     auto size = static_cast<double>(bytes);
     std::size_t unit = 0;
     for (; size >= kStep && unit + 1 < kUnits.size(); ++unit) size /= kStep;
-    return formatted(size, unit > 0 && size < 9.95 ? "%.1f" : "%.0f") + kUnits[unit];
+    return formatted(size, unit > 0 && size < 9.95 ? "%.2g" : "%.0f") + kUnits[unit];
 }
 
 std::string mebibytes_text(double mebibytes) {

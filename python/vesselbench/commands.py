@@ -102,7 +102,7 @@ def centerlines(surface: PathLike, out: PathLike, *, program: Program = None, **
 
 
 def picture(surface: PathLike, out: PathLike, *, program: Program = None, **options: Option) -> Path:
-    """Draws a surface file (.png). options: reference, colour, range, full_colour [mm], view, size [pixels] ..."""
+    """Draws a surface file or a project (.png). options: reference, colour, range, full_colour [mm], view, size [pixels] ..."""
     answer("picture", option_words(options), [os.fspath(surface), os.fspath(out)], program)
     return Path(out)
 

@@ -175,3 +175,19 @@ SCENARIO("The readable files of a folder are its cases", "[workbench][batch]") {
     CHECK(cases() == Names{"a.ply", "a.stl", "b", "c", "phantom"});
     CHECK(skipped == Names{"figures", "notes.txt"});
 }
+
+SCENARIO("A recipe of a row is a bundled one or a file beside the manifest", "[workbench][batch]") {
+    CaseColumns columns = kColumns;
+    columns.options.push_back({.name = "recipe", .is_file = true});
+    const auto recipe = [&](const std::string& name) {
+        const std::vector<BatchCase> cases =
+            cases_in("input,recipe\na.stl," + name + "\n", columns);
+        REQUIRE(cases.size() == 1);
+        const std::string argument = prepare_arguments(cases.front(), "cfd", "out").back();
+        REQUIRE(argument.starts_with("--recipe="));
+        return argument.substr(argument.find('=') + 1);
+    };
+    CHECK(recipe("tree-cfd") == "tree-cfd");
+    CHECK(fs::path(recipe("mine.json")).is_absolute());
+    CHECK(fs::path(recipe("./tree-cfd")).is_absolute());  // a file that is called like one
+}

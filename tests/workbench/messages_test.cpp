@@ -12,6 +12,7 @@
 using namespace vesselbench;
 using namespace vesselbench::test;
 using Catch::Matchers::Contains;
+using Catch::Matchers::EndsWith;
 using Catch::Matchers::Matches;
 using Catch::Matchers::StartsWith;
 
@@ -72,8 +73,11 @@ SCENARIO("Messages can be left out, and kept in a file", "[workbench][messages]"
         CHECK_THAT(silent.out, Contains("report.html"));
         THEN("the log has what was left out, with its time") {
             CHECK_THAT(content(log), Contains("Z source: repair"));
-            CHECK_THAT(content(log), Matches("20\\d\\d-\\d\\d-\\d\\dT\\d\\d:\\d\\d:\\d\\dZ "
-                                             "source(.|\n)*"));
+            CHECK_THAT(content(log), Contains("Z begin: vesselbench prepare ") &&
+                                         Contains("--log '" + log + "'") &&
+                                         EndsWith("Z end: exit code 0\n"));
+            CHECK_THAT(content(log),
+                       Matches("20\\d\\d-\\d\\d-\\d\\dT\\d\\d:\\d\\d:\\d\\dZ begin: (.|\n)*"));
         }
     }
     GIVEN("a failure") {

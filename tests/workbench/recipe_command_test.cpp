@@ -17,6 +17,7 @@
 using namespace vesselbench;
 using namespace vesselbench::test;
 using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
 using Json = nlohmann::ordered_json;
 using Words = std::vector<std::string>;
 
@@ -67,6 +68,8 @@ SCENARIO("recipe check lists all mistakes", "[workbench][recipe]") {
     const Json json = Json::parse(run({"recipe", "check", bad, "--json"}).out);
     REQUIRE(json["mistakes"].size() == 2);
     CHECK(json["mistakes"][0]["line"] == 2);
+    CHECK_THAT(run({"recipe", "check", file_with("[7,]")}).out, StartsWith("recipe.json, line 1"));
+    CHECK_THAT(run({"recipe", "diff", "tree-cfd", bad}).err, Contains("'recipe.json', line 2"));
     CHECK(run({"recipe", "check", "tree-cfd"}).exit_code == 0);
     CHECK(run({"recipe", "check"}).exit_code == 2);
     CHECK(run({"recipe", "tree-cfd"}).exit_code == 2);
@@ -123,14 +126,17 @@ SCENARIO("prepare makes the same model with the recipe that log writes of it",
         REQUIRE(done.exit_code == 0);
     };
     // It makes the later edits run again, on other input.
-    edit({"apply", project, "brush-inflate", "at=2,0,10", "radius=1.5", "--note", "a \"bleb\""});
+    edit({"apply", project, "brush-inflate", "at=2,0,10", "radius=1.5", "--note",
+          "a \"bleb\"\n{\"operation\": \"subdivide\"},"});  // a note is no entry
     edit({"apply", project, "subdivide"});
     edit({"undo", project});
     const Session made = Session::open(project, {.find = find_operation});
     const ProgramRun written = run({"log", project, "--recipe"});
     REQUIRE(written.exit_code == 0);
-    CHECK_THAT(written.out, Contains("of this case: at") && Contains("// a \"bleb\"") &&
-                                !Contains("subdivide") && !Contains(input));
+    CHECK_THAT(written.out,
+               Contains("of this case: at") && Contains("// a \"bleb\" {\"operation\"") &&
+                   !Contains("\n{\"operation\"") &&
+                   !Contains("\n    {\"operation\": \"subdivide\"") && !Contains(input));
     const std::string recipe = file_with(written.out);
     CHECK(run({"recipe", "check", recipe}).exit_code == 0);
     const std::string again = prepared(input, "rp", recipe);

@@ -211,7 +211,7 @@ SCENARIO("What the schema refuses, the program refuses", "[workbench][recipe]") 
         INFO(text);
         CHECK(faults_in(text) == Texts());
     }
-    if (run_program("python3", {"-c", "import jsonschema"}).exit_code != 0)
+    if (run_program("/usr/bin/python3", {"-c", "import jsonschema"}).exit_code != 0)
         return skip("python3-jsonschema is not installed");
     const auto parsed = [](const std::string& text) {
         return Json::parse(text, nullptr, true, true);
@@ -223,7 +223,7 @@ SCENARIO("What the schema refuses, the program refuses", "[workbench][recipe]") 
     for (const std::string& text : kBad) texts["bad"].push_back(parsed(text));
     const std::string file = temporary_folder() + "/texts.json";
     write_text(file, texts.dump());
-    const ProgramRun run = run_program("python3", {"-c", R"(
+    const ProgramRun run = run_program("/usr/bin/python3", {"-c", R"(
 import json, sys
 from jsonschema import Draft202012Validator as Validator
 texts = json.load(open(sys.argv[1]))
@@ -233,7 +233,7 @@ wrong = [recipe for recipe in texts["good"] if not validator.is_valid(recipe)]
 wrong += [recipe for recipe in texts["bad"] if validator.is_valid(recipe)]
 print(*map(json.dumps, wrong), sep="\n", end="")
 )",
-                                                   file});
+                                                            file});
     INFO(run.err);
     CHECK(run.exit_code == 0);
     CHECK(run.out == "");

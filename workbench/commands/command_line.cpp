@@ -9,6 +9,7 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
 #include "workbench/case/near_names.h"
+#include "workbench/case/shell_text.h"
 #include "workbench/case/version.h"
 #include "workbench/commands/cohort_commands.h"
 #include "workbench/commands/command_parser.h"
@@ -137,6 +138,13 @@ std::vector<std::string> arguments_of(int argc, char** argv) {
     return arguments;
 }
 
+/// As it may be typed again: " prepare 'a b.stl' --for cfd".
+std::string command_text(const std::vector<std::string>& arguments) {
+    std::string text;
+    for (const std::string& argument : arguments) text += " " + shell_quoted(argument);
+    return text;
+}
+
 /// The command with wrong arguments: the user needs its help.
 std::string help_hint(const CLI::App& app) {
     const auto chosen = app.get_subcommands();
@@ -172,6 +180,7 @@ int run_command_line(int argc, char** argv, const std::stop_token& stop, FailedC
     // Not asked from the parser: it may refuse another argument first.
     command.json = std::ranges::find(arguments, "--json") != arguments.end();
     refuse_unknown_command(line.app, arguments);
+    const std::string typed = command_text(arguments);
     std::ranges::reverse(arguments);  // as the parser wants them
     try {
         line.app.parse(arguments);
@@ -181,6 +190,7 @@ int run_command_line(int argc, char** argv, const std::stop_token& stop, FailedC
         throw UsageError(error.what() + help_hint(line.app));
     }
     set_messages(line.messages);
+    note_in_log("begin: vesselbench" + typed + " (" + version() + ")");
     const auto chosen = line.app.get_subcommands();
     report_crashes(state_folder(), chosen.empty() ? "window" : chosen.front()->get_name());
     if (!line.command) {

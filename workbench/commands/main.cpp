@@ -102,5 +102,7 @@ int main(int argc, char** argv) {
     std::signal(SIGXFSZ, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);
     const vesselbench::SignalStop signals;
-    return with_output_written(run(argc, argv, signals.token()));
+    const int code = with_output_written(run(argc, argv, signals.token()));
+    vesselbench::note_in_log("end: exit code " + std::to_string(code));
+    return code;
 }

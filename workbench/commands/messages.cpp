@@ -101,6 +101,11 @@ public:
         if (!on_terminal_ && !quiet_) write(progress_text(fraction, what, elapsed) + "\n");
     }
 
+    void note(const std::string& text) {
+        const std::scoped_lock lock(mutex_);
+        write_log(printable(text));
+    }
+
     void erase_bar() {
         const std::scoped_lock lock(mutex_);
         erase();
@@ -154,6 +159,10 @@ Messages& messages() {
 
 void set_messages(const MessageOptions& options) {
     messages().set(options);
+}
+
+void note_in_log(const std::string& text) {
+    messages().note(text);
 }
 
 void complain(const std::string& text) {

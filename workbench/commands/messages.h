@@ -17,6 +17,9 @@ struct MessageOptions {
 /// \throw IoError if the log cannot be written
 void set_messages(const MessageOptions& options);
 
+/// Writes a line to the log alone, if there is one.
+void note_in_log(const std::string& text);
+
 /// Writes the line "vesselbench: text" to stderr: why the program failed.
 void complain(const std::string& text);
 

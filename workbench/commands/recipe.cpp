@@ -49,11 +49,7 @@ std::string text_of_recipe(const std::string& name, const std::string& purpose) 
 }
 
 RecipeDocument recipe_of(const std::string& name, const std::string& purpose) {
-    try {
-        return recipe_document(text_of_recipe(name, purpose), bare_name(name));
-    } catch (const UsageError& error) {
-        throw UsageError("'" + bare_name(name) + "': " + error.what());
-    }
+    return recipe_document(text_of_recipe(name, purpose), bare_name(name));
 }
 
 void print(const Json& json) {
@@ -91,14 +87,20 @@ int show_recipe(const RecipeOptions& options) {
     return 0;
 }
 
+/// Without the line of what is no JSON, which its text names.
+Json json_of(const RecipeFault& fault) {
+    Json json = {{"place", fault.place}, {"text", fault.text}};
+    if (fault.line > 0) json["line"] = fault.line;
+    return json;
+}
+
 int check_recipe(const RecipeOptions& options) {
     const std::string& name = options.recipes.front();
     RecipeFaults faults;
     const RecipeDocument recipe =
         read_recipe(text_of_recipe(name, options.purpose), bare_name(name), faults);
     Json mistakes = Json::array();
-    for (const RecipeFault& fault : faults)
-        mistakes.push_back({{"line", fault.line}, {"place", fault.place}, {"text", fault.text}});
+    for (const RecipeFault& fault : faults) mistakes.push_back(json_of(fault));
     const std::string shown = printable(recipe.name);
     if (options.json)
         print({{"recipe", recipe.name}, {"mistakes", mistakes}});
@@ -107,7 +109,7 @@ int check_recipe(const RecipeOptions& options) {
                   << ", no mistakes\n";
     else
         for (const RecipeFault& fault : faults)
-            std::cout << shown << ", " << printable(text_of(fault)) << "\n";
+            std::cout << (fault.line > 0 ? shown + ", " : "") << printable(text_of(fault)) << "\n";
     return faults.empty() ? 0 : kMistakes;
 }
 

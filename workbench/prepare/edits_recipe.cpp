@@ -107,8 +107,12 @@ std::string entry_line(const LogEntry& entry, const Operation& operation,
     return line_of(with_file_names(Json::array({json}))[0]);
 }
 
+/// A line: a text of a stranger's project must not end the comment.
 std::string comment(const std::string& text) {
-    return "    // " + printable(text) + "\n";
+    std::string line = printable(text);
+    for (char& letter : line)
+        if (letter == '\n' || letter == '\r') letter = ' ';
+    return "    // " + line + "\n";
 }
 
 /// What a recipe says of an edit: comments, and its entry unless that is left out.

@@ -219,7 +219,9 @@ RecipeDocument recipe_document(const std::string& text, const std::string& name)
                                  ? ""
                                  : " (and " + counted(faults.size() - 1, "more mistake") +
                                        ": vesselbench recipe check lists them all)";
-    throw UsageError("recipe, " + text_of(faults.front()) + more);
+    const bool names_it = faults.front().line == 0;  // as what is no JSON does
+    throw UsageError((names_it ? "" : "recipe '" + printable(name) + "', ") +
+                     text_of(faults.front()) + more);
 }
 
 std::vector<std::string> bundled_recipe_names() {
