@@ -238,7 +238,7 @@ def python_faults(page, folder, environment):
     if not texts:
         return []
     done = subprocess.run([sys.executable, "-c", PYTHON], input=json.dumps(texts), cwd=folder, text=True,
-                          env=dict(environment, PYTHONPATH=os.path.join(common.ROOT, "python")),
+                          env=dict(environment, PYTHONPATH=os.path.join(common.ROOT, "packaging", "python")),
                           stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
     return [f"{page}: {done.stderr.strip()}"] if done.returncode != 0 else []
 

@@ -1,4 +1,4 @@
-"""Folders, surfaces and stand-ins of the program for the tests of python/vesselbench."""
+"""Folders, surfaces and stand-ins of the program for the tests of packaging/python/vesselbench."""
 import os
 import stat
 import tempfile
