@@ -7,10 +7,19 @@ add_library(vesselbench_options INTERFACE)
 # The sanitizers' code confuses g++'s flow analysis, so warnings count in plain builds only.
 set(WARNINGS -Wall -Wextra -Wshadow -Werror -Wno-missing-field-initializers
   -Wno-restrict -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread)
+# Where sources are compiled together, these two take what a neighbour declares for a header's; builds of single sources
+# (the preset dev, scripts/check) have them.
+if(CMAKE_UNITY_BUILD)
+  list(APPEND WARNINGS -Wno-shadow -Wno-subobject-linkage)
+endif()
 if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
   set(WARNINGS -w)
 endif()
 target_compile_options(vesselbench_options INTERFACE ${WARNINGS} -ffp-contract=off)
+# With AddressSanitizer, Eigen would not free as the libraries do that a sanitizer's build takes from the release build.
+if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
+  target_compile_definitions(vesselbench_options INTERFACE EIGEN_MALLOC_ALREADY_ALIGNED=1)
+endif()
 target_include_directories(vesselbench_options INTERFACE ${CMAKE_SOURCE_DIR})
 
 # ccache believes in precompiled headers only when told to; without a preprocessor's run of its own a miss costs nothing.
@@ -25,10 +34,3 @@ find_program(MOLD_PROGRAM mold)
 if(MOLD_PROGRAM)
   add_link_options(-fuse-ld=mold)
 endif()
-
-# The library of one room: vesselbench_library(geometry SOURCES ... PUBLIC ... PRIVATE ...)
-function(vesselbench_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
-  add_library(vb_${name} STATIC ${ARG_SOURCES})
-  target_link_libraries(vb_${name} PUBLIC vesselbench_options ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
-endfunction()

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "geometry/kernel/edges.h"
 #include "geometry/kernel/parallel.h"
 
 namespace vesselbench {
@@ -42,10 +43,6 @@ Vec3 closest_weights(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c)
     const double sum = va + vb + vc;
     if (sum <= 0.0) return {1.0, 0.0, 0.0};  // a triangle degenerate to a point
     return {1.0 - (vb + vc) / sum, vb / sum, vc / sum};
-}
-
-int corner_of(const Triangle& triangle, VertexId v) {
-    return triangle[0] == v ? 0 : triangle[1] == v ? 1 : 2;
 }
 
 }  // namespace

@@ -11,20 +11,13 @@
 #include "geometry/phantoms/imaging.h"
 #include "tests/support/shapes.h"
 #include "tests/support/stop_at.h"
+#include "tests/support/surface_facts.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;
 using Catch::Matchers::Contains;
 
 namespace {
-
-double enclosed_volume(const Surface& surface) {
-    double six_fold = 0.0;
-    for (const Triangle& t : surface.triangles())
-        six_fold +=
-            surface.points()[t[0]].dot(surface.points()[t[1]].cross(surface.points()[t[2]]));
-    return six_fold / 6.0;
-}
 
 PhantomDescription sphere_of(double radius) {
     PhantomDescription description;

@@ -7,12 +7,12 @@
 #include <thread>
 
 #include <nlohmann/json.hpp>
-#include <tbb/global_control.h>
 #include <unistd.h>
 
 #include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "tests/session/forbidden_acts.h"
+#include "tests/support/one_thread.h"
 #include "tests/support/shapes.h"
 
 namespace vesselbench::test {
@@ -20,11 +20,6 @@ namespace vesselbench::test {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-#if defined(__SANITIZE_THREAD__)
-// oneTBB is not instrumented: what it synchronizes looks like a race. Our own threads are tested.
-const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
-#endif
 
 Outcome made(Scene scene, const Arguments& arguments) {
     Outcome result;

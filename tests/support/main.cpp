@@ -1,6 +1,7 @@
 #define CATCH_CONFIG_RUNNER
 #include <catch2/catch.hpp>
 
+#include "tests/support/one_thread.h"
 #include "tests/support/skip.h"
 
 // A failure is a failure whatever was skipped before it.

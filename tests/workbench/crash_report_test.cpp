@@ -1,4 +1,4 @@
-#include "workbench/commands/crash_report.h"
+#include "workbench/commands/console/crash_report.h"
 
 #include <csignal>
 #include <fstream>

@@ -5,265 +5,23 @@
 #include <map>
 #include <regex>
 #include <set>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include <catch2/catch.hpp>
 
 #include "tests/support/paths.h"
+#include "tests/workbench/room_table.h"
 
 namespace fs = std::filesystem;
+using vesselbench::test::is_below;
+using vesselbench::test::read_cmake_lists;
+using vesselbench::test::RoomTable;
 using vesselbench::test::source_folder;
 
 namespace {
 
 using Names = std::set<std::string>;
-
-// The rooms and the rooms each may include besides itself; the drawing is in
-// docs/dev/architecture.md. A file belongs to the room of its longest prefix; "geometry" on the
-// right means all rooms there.
-const std::map<std::string, Names> kDoors = {
-    {"geometry/kernel", {}},
-    {"geometry/image", {"geometry/kernel"}},
-    {"geometry/vessel/centerlines", {"geometry/kernel"}},
-    {"geometry/editing", {"geometry/kernel"}},
-    {"geometry/vessel/artefacts", {"geometry/kernel", "geometry/vessel/centerlines"}},
-    {"geometry/vessel/ends",
-     {"geometry/kernel", "geometry/editing", "geometry/vessel/centerlines"}},
-    {"geometry/vessel/openings",
-     {"geometry/kernel", "geometry/editing", "geometry/vessel/centerlines",
-      "geometry/vessel/ends"}},
-    {"geometry/vessel/narrowing",
-     {"geometry/kernel", "geometry/image", "geometry/vessel/centerlines",
-      "geometry/vessel/openings"}},
-    {"geometry/vessel/posing", {"geometry/kernel", "geometry/vessel/centerlines"}},
-    {"geometry/vessel/repair", {"geometry/kernel", "geometry/editing"}},
-    {"geometry/formats", {"geometry/kernel", "geometry/image", "geometry/vessel"}},
-    {"geometry/phantoms", {"geometry/kernel", "geometry/image"}},
-    {"smoothing/filters", {"geometry/kernel"}},
-    {"smoothing/context", {"geometry/kernel"}},
-    {"smoothing/brush", {"geometry/kernel", "smoothing/filters"}},
-    {"smoothing/quality", {"geometry/kernel", "smoothing/filters"}},
-    {"gpu", {"geometry/kernel", "smoothing/filters", "smoothing/context", "smoothing/quality"}},
-    {"meshing/remeshing", {"geometry/kernel", "geometry/editing", "geometry/vessel"}},
-    {"meshing/stamp",
-     {"geometry/kernel", "geometry/editing", "geometry/vessel", "meshing/remeshing"}},
-    {"meshing/tetrahedra", {"geometry/kernel"}},
-    {"meshing/products", {"geometry/kernel", "geometry/formats", "meshing/tetrahedra"}},
-    {"workbench/case", {"geometry/kernel", "geometry/image", "meshing/tetrahedra"}},
-    {"workbench/project", {"geometry/kernel", "workbench/case"}},
-    {"workbench/worker", {"geometry/kernel", "workbench/case", "workbench/project"}},
-    {"workbench/session",
-     {"geometry/kernel", "workbench/case", "workbench/project", "workbench/worker"}},
-    {"workbench/operations",
-     {"geometry", "smoothing", "gpu", "meshing", "workbench/case", "workbench/worker"}},
-    {"workbench/phantoms", {"geometry/kernel", "geometry/phantoms", "workbench/case"}},
-    {"workbench/report",
-     {"geometry/kernel", "smoothing/quality", "gpu", "workbench/case", "workbench/session"}},
-    {"workbench/colours",
-     {"geometry/kernel", "geometry/vessel/centerlines", "smoothing/context", "meshing/tetrahedra",
-      "workbench/case", "workbench/operations", "workbench/report"}},
-    {"workbench/findings",
-     {"geometry/kernel", "geometry/editing", "geometry/vessel", "smoothing/context",
-      "meshing/products", "workbench/case", "workbench/project", "workbench/session",
-      "workbench/operations"}},
-    {"workbench/review",
-     {"geometry/kernel", "geometry/image", "geometry/formats", "gpu", "workbench/case",
-      "workbench/project", "workbench/worker", "workbench/session", "workbench/report",
-      "workbench/colours", "workbench/findings"}},
-    {"workbench/export",
-     {"geometry/kernel", "geometry/formats", "meshing/products", "workbench/case",
-      "workbench/report", "workbench/colours", "workbench/review"}},
-    {"workbench/prepare",
-     {"geometry", "meshing/products", "workbench/case", "workbench/session", "workbench/operations",
-      "workbench/findings", "workbench/export", "workbench/report", "workbench/review",
-      "workbench/phantoms"}},
-    {"workbench/batch",
-     {"geometry/kernel", "geometry/formats", "workbench/case", "workbench/project",
-      "workbench/worker", "workbench/session", "workbench/operations", "workbench/export",
-      "workbench/report", "workbench/review", "workbench/prepare"}},
-    {"workbench/suggest",
-     {"geometry/kernel", "smoothing/quality", "workbench/case", "workbench/project",
-      "workbench/worker", "workbench/session", "workbench/operations"}},
-    {"workbench/window/style", {}},
-    {"workbench/window/keys", {}},
-    {"workbench/window/widgets", {"workbench/window/style"}},
-    {"workbench/window/case",
-     {"geometry/kernel", "geometry/vessel/centerlines", "smoothing/brush", "workbench/case",
-      "workbench/session", "workbench/operations", "workbench/export", "workbench/report",
-      "workbench/review", "workbench/prepare"}},
-    {"workbench/window/form",
-     {"geometry/kernel", "geometry/image", "workbench/case", "workbench/session",
-      "workbench/operations", "workbench/prepare", "workbench/window/case"}},
-    {"workbench/window/drawing",
-     {"geometry/kernel", "gpu", "workbench/case", "workbench/session", "workbench/colours",
-      "workbench/window/widgets", "workbench/window/case"}},
-    {"workbench/window/core",
-     {"geometry/kernel", "workbench/case", "workbench/session", "workbench/operations",
-      "workbench/prepare", "workbench/window/keys", "workbench/window/widgets",
-      "workbench/window/case", "workbench/window/form", "workbench/window/drawing"}},
-    {"workbench/window/features/borders", {"workbench/window/widgets", "workbench/window/core"}},
-    {"workbench/window/features/brush",
-     {"geometry/kernel", "gpu", "workbench/case", "workbench/operations",
-      "workbench/window/widgets", "workbench/window/case", "workbench/window/form",
-      "workbench/window/drawing", "workbench/window/core"}},
-    {"workbench/window/features/compare",
-     {"geometry/kernel", "gpu", "workbench/session", "workbench/report", "workbench/window/style",
-      "workbench/window/widgets", "workbench/window/case", "workbench/window/drawing",
-      "workbench/window/core"}},
-    {"workbench/window/features/openings",
-     {"geometry/kernel", "geometry/vessel/centerlines", "geometry/vessel/ends",
-      "geometry/vessel/openings", "workbench/case", "workbench/session", "workbench/operations",
-      "workbench/window/style", "workbench/window/keys", "workbench/window/widgets",
-      "workbench/window/case", "workbench/window/form", "workbench/window/drawing",
-      "workbench/window/core"}},
-    {"workbench/window/features/picture",
-     {"geometry/kernel", "gpu", "workbench/session", "workbench/window/widgets",
-      "workbench/window/case", "workbench/window/drawing", "workbench/window/core"}},
-    {"workbench/window/features/handles",
-     {"geometry/kernel", "geometry/image", "geometry/vessel/centerlines",
-      "geometry/vessel/openings", "geometry/vessel/posing", "workbench/case", "workbench/session",
-      "workbench/operations", "workbench/window/widgets", "workbench/window/form",
-      "workbench/window/drawing", "workbench/window/core", "workbench/window/features/openings"}},
-    {"workbench/window/features/history",
-     {"geometry/kernel", "gpu", "meshing/remeshing", "workbench/session", "workbench/window/style",
-      "workbench/window/widgets", "workbench/window/case", "workbench/window/core",
-      "workbench/window/features/compare"}},
-    {"workbench/window/features/live",
-     {"geometry/kernel", "smoothing/context", "workbench/case", "workbench/operations",
-      "workbench/colours", "workbench/window/style", "workbench/window/widgets",
-      "workbench/window/case", "workbench/window/form", "workbench/window/drawing",
-      "workbench/window/core", "workbench/window/features/compare"}},
-    {"workbench/window/features/picking",
-     {"geometry/kernel", "gpu", "workbench/window/widgets", "workbench/window/form",
-      "workbench/window/drawing", "workbench/window/core", "workbench/window/features/brush",
-      "workbench/window/features/openings"}},
-    {"workbench/window/features/colours",
-     {"geometry/kernel", "geometry/vessel/centerlines", "workbench/session", "workbench/colours",
-      "workbench/window/case", "workbench/window/drawing", "workbench/window/core",
-      "workbench/window/features/live"}},
-    {"workbench/window/features/findings",
-     {"geometry/kernel", "workbench/case", "workbench/session", "workbench/operations",
-      "workbench/findings", "workbench/window/style", "workbench/window/widgets",
-      "workbench/window/case", "workbench/window/core"}},
-    {"workbench/window/features/gallery",
-     {"geometry/kernel", "gpu", "workbench/case", "workbench/session", "workbench/suggest",
-      "workbench/window/style", "workbench/window/keys", "workbench/window/widgets",
-      "workbench/window/case", "workbench/window/drawing", "workbench/window/core",
-      "workbench/window/features/live", "workbench/window/features/picking"}},
-    {"workbench/window/features/clip",
-     {"geometry/kernel", "gpu", "meshing/tetrahedra", "workbench/session", "workbench/colours",
-      "workbench/window/style", "workbench/window/widgets", "workbench/window/drawing",
-      "workbench/window/core", "workbench/window/features/colours"}},
-    {"workbench/window/features/flight",
-     {"geometry/kernel", "geometry/vessel/centerlines", "gpu", "workbench/window/style",
-      "workbench/window/keys", "workbench/window/widgets", "workbench/window/drawing",
-      "workbench/window/core", "workbench/window/features/colours"}},
-    {"workbench/window/features/measures",
-     {"geometry/kernel", "geometry/vessel/centerlines", "workbench/session", "workbench/report",
-      "workbench/window/style", "workbench/window/widgets", "workbench/window/case",
-      "workbench/window/drawing", "workbench/window/core", "workbench/window/features/live",
-      "workbench/window/features/picking", "workbench/window/features/colours"}},
-    {"workbench/window/features/quality",
-     {"geometry/kernel", "workbench/report", "workbench/suggest", "workbench/window/widgets",
-      "workbench/window/case", "workbench/window/form", "workbench/window/core",
-      "workbench/window/features/live", "workbench/window/features/gallery"}},
-    {"workbench/window/features/review",
-     {"geometry/kernel", "workbench/operations", "workbench/review", "workbench/window/style",
-      "workbench/window/keys", "workbench/window/widgets", "workbench/window/case",
-      "workbench/window/drawing", "workbench/window/core", "workbench/window/features/compare",
-      "workbench/window/features/picking"}},
-    {"workbench/window/features/slices",
-     {"geometry/kernel", "geometry/image", "gpu", "workbench/case", "workbench/session",
-      "workbench/window/style", "workbench/window/widgets", "workbench/window/case",
-      "workbench/window/form", "workbench/window/drawing", "workbench/window/core",
-      "workbench/window/features/handles", "workbench/window/features/measures",
-      "workbench/window/features/review"}},
-    {"workbench/window/features/extraction",
-     {"geometry/kernel", "workbench/operations", "workbench/window/style",
-      "workbench/window/widgets", "workbench/window/case", "workbench/window/form",
-      "workbench/window/core", "workbench/window/features/live",
-      "workbench/window/features/slices"}},
-    {"workbench/window/workplace",
-     {"workbench/window/core", "workbench/window/features/brush",
-      "workbench/window/features/compare", "workbench/window/features/openings",
-      "workbench/window/features/picture", "workbench/window/features/handles",
-      "workbench/window/features/history", "workbench/window/features/live",
-      "workbench/window/features/colours", "workbench/window/features/gallery",
-      "workbench/window/features/measures", "workbench/window/features/quality",
-      "workbench/window/features/review", "workbench/window/features/slices",
-      "workbench/window/features/findings", "workbench/window/features/extraction"}},
-    {"workbench/window/fields",
-     {"geometry/kernel", "gpu", "workbench/window/style", "workbench/window/widgets",
-      "workbench/window/case", "workbench/window/form", "workbench/window/core"}},
-    {"workbench/window/panels",
-     {"geometry/kernel",
-      "geometry/formats",
-      "workbench/case",
-      "workbench/session",
-      "workbench/operations",
-      "workbench/prepare",
-      "workbench/export",
-      "workbench/phantoms",
-      "workbench/window/style",
-      "workbench/window/keys",
-      "workbench/window/widgets",
-      "workbench/window/case",
-      "workbench/window/form",
-      "workbench/window/drawing",
-      "workbench/window/core",
-      "workbench/window/features/brush",
-      "workbench/window/features/compare",
-      "workbench/window/features/openings",
-      "workbench/window/features/handles",
-      "workbench/window/features/history",
-      "workbench/window/features/colours",
-      "workbench/window/features/findings",
-      "workbench/window/features/gallery",
-      "workbench/window/features/measures",
-      "workbench/window/features/quality",
-      "workbench/window/features/review",
-      "workbench/window/features/extraction",
-      "workbench/window/workplace",
-      "workbench/window/fields"}},
-    {"workbench/window/view",
-     {"workbench/window/features/borders",
-      "geometry/kernel",
-      "geometry/vessel/centerlines",
-      "geometry/vessel/openings",
-      "gpu",
-      "workbench/case",
-      "workbench/session",
-      "workbench/operations",
-      "workbench/window/style",
-      "workbench/window/widgets",
-      "workbench/window/case",
-      "workbench/window/form",
-      "workbench/window/drawing",
-      "workbench/window/core",
-      "workbench/window/features/brush",
-      "workbench/window/features/compare",
-      "workbench/window/features/openings",
-      "workbench/window/features/picture",
-      "workbench/window/features/handles",
-      "workbench/window/features/live",
-      "workbench/window/features/picking",
-      "workbench/window/features/gallery",
-      "workbench/window/features/clip",
-      "workbench/window/features/flight",
-      "workbench/window/features/measures",
-      "workbench/window/features/review",
-      "workbench/window/features/slices",
-      "workbench/window/workplace"}},
-    {"workbench/window/app",
-     {"geometry/kernel", "gpu", "workbench/window/widgets", "workbench/window/case",
-      "workbench/window/core", "workbench/window/features/borders",
-      "workbench/window/features/history", "workbench/window/workplace", "workbench/window/panels",
-      "workbench/window/view"}},
-    {"workbench/window/shell",
-     {"geometry/kernel", "gpu", "workbench/window/keys", "workbench/window/app"}},
-    {"workbench/commands", {"geometry", "smoothing/quality", "gpu", "workbench"}}};
 
 const Names kFolders = {"geometry", "smoothing", "gpu", "meshing", "workbench"};
 
@@ -317,38 +75,61 @@ std::vector<Include> includes_in(const std::string& text) {
     return includes;
 }
 
-/// All our code by its path in the repository.
-const std::map<std::string, SourceFile>& house() {
+/// Files below our folders by their paths in the repository, without installed and built ones.
+const Names& house_files() {
     static const auto files = [] {
         const fs::path root = source_folder();
-        std::map<std::string, SourceFile> all;
+        Names all;
         for (const std::string& folder : kFolders)
-            for (const auto& entry : fs::recursive_directory_iterator(root / folder))
-                if (is_source(entry.path())) {
-                    const std::string text = text_of(entry.path());
-                    all[fs::relative(entry.path(), root).string()] = {text, includes_in(text)};
-                }
+            for (fs::recursive_directory_iterator i(root / folder), end; i != end; ++i) {
+                const std::string name = i->path().filename().string();
+                if (name == "build" || name == "node_modules") i.disable_recursion_pending();
+                if (i->is_regular_file()) all.insert(fs::relative(i->path(), root).string());
+            }
         return all;
     }();
     return files;
 }
 
-bool is_below(const std::string& path, const std::string& folder) {
-    return path == folder || path.starts_with(folder + "/");
+/// All our code by its path in the repository.
+const std::map<std::string, SourceFile>& house() {
+    static const auto sources = [] {
+        std::map<std::string, SourceFile> all;
+        for (const std::string& file : house_files())
+            if (is_source(file)) {
+                const std::string text = text_of(fs::path(source_folder()) / file);
+                all[file] = {text, includes_in(text)};
+            }
+        return all;
+    }();
+    return sources;
+}
+
+/// What all CMakeLists.txt of the house declare.
+const RoomTable& table() {
+    static const auto read = [] {
+        RoomTable all;
+        for (const std::string& file : house_files())
+            if (fs::path(file).filename() == "CMakeLists.txt")
+                read_cmake_lists(fs::path(file).parent_path().string(),
+                                 text_of(fs::path(source_folder()) / file), house_files(), all);
+        return all;
+    }();
+    return read;
 }
 
 /// Empty if the file is in none.
 std::string room_of(const std::string& path) {
     std::string room;
-    for (const auto& [name, doors] : kDoors)
+    for (const auto& [name, declared] : table().rooms)
         if (is_below(path, name) && name.size() > room.size()) room = name;
     return room;
 }
 
 bool may_use(const std::string& room, const std::string& other) {
-    return room == other || std::ranges::any_of(kDoors.at(room), [&](const std::string& door) {
-               return is_below(other, door);
-           });
+    return room == other ||
+           std::ranges::any_of(table().rooms.at(room).doors,
+                               [&](const std::string& door) { return is_below(other, door); });
 }
 
 /// Names that lead back to themselves via `next`, and those that lead to them.
@@ -439,76 +220,102 @@ std::vector<std::string> functions_left_to_a_source(const std::string& text) {
     return found;
 }
 
-// --- the targets as the CMakeLists link them
-
-struct Target {
-    Names rooms;  ///< of its sources; none: a bundle of other targets
-    Names links;  ///< our own targets among what it links
-};
-
-Names words_of(const std::string& text) {
-    std::istringstream stream(text);
-    return {std::istream_iterator<std::string>(stream), {}};
+/// The folder of the CMakeLists.txt that is responsible for a folder.
+std::string folder_with_cmake_lists(fs::path folder) {
+    while (!folder.empty() && !house_files().contains((folder / "CMakeLists.txt").string()))
+        folder = folder.parent_path();
+    return folder.string();
 }
 
-Names own_targets(const Names& words) {
-    Names targets;
-    for (const std::string& word : words)
-        if (word.starts_with("vb_")) targets.insert(word);
-    return targets;
-}
-
-Names rooms_of_sources(const std::string& folder, const Names& words) {
-    Names rooms;
-    for (const std::string& word : words)
-        if (word.ends_with(".cpp") && !word.starts_with("$"))
-            rooms.insert(room_of(folder + "/" + word));
-    return rooms;
-}
-
-void read_targets(const std::string& folder, std::map<std::string, Target>& targets) {
-    const std::string text = text_of(fs::path(source_folder()) / folder / "CMakeLists.txt");
-    static const std::regex with_sources(
-        R"re((vesselbench_library|add_executable)\((\w+)([^)]*)\))re");
-    static const std::regex links(R"re(target_link_libraries\((\w+)([^)]*)\))re");
-    for (std::sregex_iterator i(text.begin(), text.end(), with_sources), end; i != end; ++i) {
-        const Names words = words_of(i->str(3));
-        const std::string prefix = i->str(1) == "add_executable" ? "" : "vb_";
-        targets[prefix + i->str(2)] = {rooms_of_sources(folder, words), own_targets(words)};
-    }
-    for (std::sregex_iterator i(text.begin(), text.end(), links), end; i != end; ++i)
-        targets[i->str(1)].links.merge(own_targets(words_of(i->str(2))));
-}
-
-std::map<std::string, Target> targets() {
-    std::map<std::string, Target> all;
-    for (const std::string& folder : kFolders) read_targets(folder, all);
-    return all;
+/// Rooms of the sources of a target; none: a bundle of other targets.
+const Names& rooms_of(const std::string& target) {
+    static const auto rooms = [] {
+        std::map<std::string, Names> all;
+        for (const auto& [name, declared] : table().targets) {
+            Names& its = all[name];
+            for (const std::string& source : declared.sources) its.insert(room_of(source));
+        }
+        return all;
+    }();
+    return rooms.at(target);
 }
 
 /// Rooms whose code a target can call: its own and those it links, directly or through others.
-Names linked_rooms(const std::map<std::string, Target>& targets, const std::string& target) {
-    Names rooms = targets.at(target).rooms;
-    for (const std::string& link : targets.at(target).links)
-        rooms.merge(linked_rooms(targets, link));
+Names linked_rooms(const std::string& target) {
+    Names rooms = rooms_of(target);
+    for (const std::string& link : table().targets.at(target).links)
+        rooms.merge(linked_rooms(link));
     return rooms;
 }
 
-bool may_link(const Target& target, const Target& other) {
-    const auto used_by = [&](const std::string& room) {
-        return std::ranges::any_of(other.rooms,
-                                   [&](const std::string& to) { return may_use(room, to); });
+bool may_link(const std::string& target, const std::string& other) {
+    const Names& to = rooms_of(other);
+    const auto may_use_it = [&](const std::string& room) {
+        return std::ranges::any_of(to, [&](const auto& used) { return may_use(room, used); });
     };
-    return other.rooms.empty() || target.rooms.empty() ||
-           std::ranges::any_of(target.rooms, used_by);
+    return to.empty() || rooms_of(target).empty() ||
+           std::ranges::any_of(rooms_of(target), may_use_it);
 }
 
 }  // namespace
 
+SCENARIO("The rooms are folders with code, declared in their CMakeLists.txt",
+         "[workbench][house]") {
+    Names with_code;
+    for (const auto& [file, source] : house()) with_code.insert(room_of(file));
+    std::size_t doors = 0;
+    for (const auto& [name, room] : table().rooms) {
+        INFO(name << " in " << room.declared_in << "/CMakeLists.txt");
+        CHECK(fs::is_directory(fs::path(source_folder()) / name));
+        CHECK(with_code.contains(name));
+        CHECK(room.declared_in == folder_with_cmake_lists(name));
+        doors += room.doors.size();
+    }
+    CHECK(table().rooms.size() > 60);
+    CHECK(doors > 400);
+}
+
+SCENARIO("A CMakeLists.txt is read as CMake reads it, or refused", "[workbench][house]") {
+    const Names files = {"a/b/one.cpp", "a/b/two.cpp", "a/c/d/three.cpp", "a/c/four.cpp"};
+    const auto read = [&](const std::string& text) {
+        RoomTable all;
+        read_cmake_lists("a", text, files, all);
+        return all;
+    };
+    CHECK(read("# room(a/x)\nroom(a/b)\nroom(a/c USES  # all\n  a/b\n  z)").rooms.at("a/c").doors ==
+          Names{"a/b", "z"});
+    CHECK(read("# room(a/x)").rooms.empty());
+    CHECK_THROWS_WITH(read("room(a/c a/b)"), Catch::Contains("it is not room(NAME USES ...)"));
+    CHECK_THROWS_WITH(read("room(a/b) room(a/b)"), Catch::Contains("there is such a room"));
+
+    const auto sources = [&](const std::string& text) {
+        return read(text).targets.begin()->second.sources;
+    };
+    CHECK(sources("vesselbench_library(b)") == Names{"a/b/one.cpp", "a/b/two.cpp"});
+    CHECK(sources("vesselbench_library(b WITHOUT b/two.cpp)") == Names{"a/b/one.cpp"});
+    CHECK(sources("vesselbench_library(b SOURCES b/two.cpp ${X}/three.cpp)") ==
+          Names{"a/b/two.cpp"});
+    CHECK(sources("vesselbench_library(x FOLDERS . SOURCES ${X}/three.cpp)") == files);
+    CHECK(sources("sources_below(S b c)\nlist(FILTER S EXCLUDE REGEX \"^c/d/\")\n"
+                  "add_executable(x ${S})") == Names{"a/b/one.cpp", "a/b/two.cpp", "a/c/four.cpp"});
+    CHECK_THROWS_WITH(read("vesselbench_library(b b/one.cpp)"), Catch::Contains("keyword"));
+    CHECK_THROWS_WITH(read("sources_below(S b) list(APPEND S c/four.cpp)"),
+                      Catch::Contains("only FILTER"));
+    CHECK_THROWS_WITH(read("add_executable(x ${S})"), Catch::Contains("${S}"));
+
+    const auto linked = read(
+        "vesselbench_library(b PUBLIC vb_c Eigen3::Eigen PRIVATE vb_d)\n"
+        "add_library(vb_all INTERFACE)\n"
+        "target_link_libraries(vb_all INTERFACE vb_b vb_c)");
+    CHECK(linked.targets.at("vb_b").links == Names{"vb_c", "vb_d"});
+    CHECK(linked.targets.at("vb_all").links == Names{"vb_b", "vb_c"});
+    CHECK(linked.targets.at("vb_all").sources == Names{});
+}
+
 SCENARIO("The table of rooms has no circle", "[workbench][house]") {
     std::map<std::string, Names> next;
-    for (const auto& [room, doors] : kDoors)
-        for (const auto& [other, ignored] : kDoors)
+    for (const auto& [room, declared] : table().rooms)
+        for (const auto& [other, ignored] : table().rooms)
             if (room != other && may_use(room, other)) next[room].insert(other);
     CHECK(circles(next) == Names{});
     CHECK(circles({{"a", {"b"}}, {"b", {"a"}}, {"c", {}}}) == Names{"a", "b"});
@@ -533,8 +340,8 @@ SCENARIO("Every door is used by an include", "[workbench][house]") {
     for (const auto& [file, source] : house())
         for (const Include& include : source.includes)
             if (include.quoted) used[room_of(file)].insert(room_of(include.name));
-    for (const auto& [room, doors] : kDoors)
-        for (const std::string& door : doors) {
+    for (const auto& [room, declared] : table().rooms)
+        for (const std::string& door : declared.doors) {
             INFO(room << " may use " << door);
             CHECK(std::ranges::any_of(
                 used[room], [&](const std::string& other) { return is_below(other, door); }));
@@ -600,21 +407,35 @@ SCENARIO("Large libraries stop at the source files", "[workbench][house]") {
         }
 }
 
+SCENARIO("Every source is compiled into one target", "[workbench][house]") {
+    std::map<std::string, int> compiled;
+    for (const auto& [name, target] : table().targets)
+        for (const std::string& source : target.sources) ++compiled[source];
+    for (const auto& [file, source] : house()) {
+        if (!file.ends_with(".cpp")) continue;
+        INFO(file);
+        CHECK(compiled[file] == 1);
+    }
+}
+
 SCENARIO("The targets link the rooms that their doors name", "[workbench][house]") {
-    const auto all = targets();
-    CHECK(all.size() > 20);
-    std::map<std::string, Names> linked;
-    for (const auto& [name, target] : all) {
-        for (const std::string& room : target.rooms) linked[room].merge(linked_rooms(all, name));
+    CHECK(table().targets.size() > 20);
+    std::map<std::string, Names> linked;  // by room, and by source: with its target alone
+    for (const auto& [name, target] : table().targets) {
+        const Names rooms = linked_rooms(name);
+        for (const std::string& source : target.sources) {
+            linked[room_of(source)].insert(rooms.begin(), rooms.end());
+            linked[source] = rooms;
+        }
         for (const std::string& link : target.links) {
             INFO(name << " links " << link);
-            CHECK(may_link(target, all.at(link)));
+            CHECK(may_link(name, link));
         }
     }
     for (const auto& [file, source] : house())
         for (const Include& include : source.includes) {
             if (!include.quoted) continue;
             INFO(file << " includes " << include.name);
-            CHECK(linked[room_of(file)].contains(room_of(include.name)));
+            CHECK(linked[is_header(file) ? room_of(file) : file].contains(room_of(include.name)));
         }
 }

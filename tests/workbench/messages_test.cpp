@@ -7,7 +7,7 @@
 #include "tests/support/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
-#include "workbench/commands/progress_line.h"
+#include "workbench/commands/console/progress_line.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;

@@ -10,8 +10,8 @@
 #include "workbench/case/diagnostic_words.h"
 #include "workbench/case/json_text.h"
 #include "workbench/commands/commands.h"
-#include "workbench/commands/console.h"
-#include "workbench/commands/messages.h"
+#include "workbench/commands/console/console.h"
+#include "workbench/commands/console/messages.h"
 #include "workbench/operations/table.h"
 #include "workbench/review/audit_texts.h"
 

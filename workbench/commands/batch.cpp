@@ -15,8 +15,8 @@
 #include "workbench/case/json_text.h"
 #include "workbench/case/purposes.h"
 #include "workbench/commands/cohort_commands.h"
-#include "workbench/commands/console.h"
-#include "workbench/commands/messages.h"
+#include "workbench/commands/console/console.h"
+#include "workbench/commands/console/messages.h"
 
 namespace vesselbench {
 

@@ -11,7 +11,7 @@
 #include "geometry/kernel/wording.h"
 #include "workbench/case/json_text.h"
 #include "workbench/commands/commands.h"
-#include "workbench/commands/console.h"
+#include "workbench/commands/console/console.h"
 #include "workbench/operations/shared/foreign_surface.h"
 
 namespace vesselbench {

@@ -13,7 +13,7 @@
 #include "workbench/case/version.h"
 #include "workbench/commands/cohort_commands.h"
 #include "workbench/commands/command_parser.h"
-#include "workbench/commands/crash_report.h"
+#include "workbench/commands/console/crash_report.h"
 #include "workbench/commands/measuring_commands.h"
 #include "workbench/commands/preparing_commands.h"
 #include "workbench/commands/project_commands.h"

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "workbench/commands/messages.h"
+#include "workbench/commands/console/messages.h"
 
 namespace vesselbench {
 

@@ -9,7 +9,7 @@
 
 #include "geometry/kernel/progress.h"
 #include "workbench/commands/commands.h"
-#include "workbench/commands/messages.h"
+#include "workbench/commands/console/messages.h"
 
 namespace vesselbench {
 

@@ -6,7 +6,7 @@
 
 #include "workbench/case/diagnostic_json.h"
 #include "workbench/case/json_text.h"
-#include "workbench/commands/messages.h"
+#include "workbench/commands/console/messages.h"
 
 namespace vesselbench {
 

@@ -17,9 +17,9 @@
 #include "workbench/batch/case_process.h"
 #include "workbench/case/diagnostic_words.h"
 #include "workbench/commands/command_line.h"
-#include "workbench/commands/console.h"
+#include "workbench/commands/console/console.h"
+#include "workbench/commands/console/messages.h"
 #include "workbench/commands/failure.h"
-#include "workbench/commands/messages.h"
 #include "workbench/operations/table.h"
 #include "workbench/worker/worker.h"
 

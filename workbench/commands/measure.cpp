@@ -13,7 +13,7 @@
 #include "workbench/case/json_text.h"
 #include "workbench/case/measure_json.h"
 #include "workbench/commands/commands.h"
-#include "workbench/commands/console.h"
+#include "workbench/commands/console/console.h"
 #include "workbench/operations/shared/foreign_surface.h"
 
 namespace vesselbench {

@@ -10,7 +10,7 @@
 #include "workbench/case/operation.h"
 #include "workbench/case/parameter_texts.h"
 #include "workbench/commands/commands.h"
-#include "workbench/commands/console.h"
+#include "workbench/commands/console/console.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {

@@ -14,7 +14,7 @@
 #include "workbench/case/purposes.h"
 #include "workbench/colours/shown_measure.h"
 #include "workbench/commands/commands.h"
-#include "workbench/commands/messages.h"
+#include "workbench/commands/console/messages.h"
 #include "workbench/export/products.h"
 #include "workbench/operations/table.h"
 #include "workbench/prepare/case_files.h"

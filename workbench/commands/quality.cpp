@@ -13,7 +13,7 @@
 #include "smoothing/quality/sensitivity.h"
 #include "workbench/case/json_text.h"
 #include "workbench/commands/commands.h"
-#include "workbench/commands/messages.h"
+#include "workbench/commands/console/messages.h"
 #include "workbench/report/quality_gallery.h"
 #include "workbench/report/quality_svg.h"
 #include "workbench/suggest/search_subject.h"

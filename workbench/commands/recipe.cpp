@@ -9,7 +9,7 @@
 #include "geometry/kernel/wording.h"
 #include "workbench/case/json_text.h"
 #include "workbench/commands/commands.h"
-#include "workbench/commands/console.h"
+#include "workbench/commands/console/console.h"
 #include "workbench/prepare/kept_recipe.h"
 #include "workbench/prepare/recipe_diff.h"
 #include "workbench/prepare/recipe_document.h"

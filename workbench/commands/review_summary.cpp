@@ -6,8 +6,8 @@
 #include "geometry/kernel/wording.h"
 #include "workbench/case/json_text.h"
 #include "workbench/commands/commands.h"
-#include "workbench/commands/console.h"
-#include "workbench/commands/messages.h"
+#include "workbench/commands/console/console.h"
+#include "workbench/commands/console/messages.h"
 #include "workbench/review/cohort.h"
 
 namespace vesselbench {

@@ -9,7 +9,7 @@
 #include "geometry/kernel/whole_file.h"
 #include "gpu/png.h"
 #include "workbench/commands/commands.h"
-#include "workbench/commands/crash_report.h"
+#include "workbench/commands/console/crash_report.h"
 #include "workbench/operations/table.h"
 #include "workbench/window/case/user_folders.h"
 #include "workbench/window/shell/glfw_shell.h"

@@ -1,4 +1,4 @@
-#include "workbench/commands/messages.h"
+#include "workbench/commands/console/messages.h"
 
 #include <chrono>
 #include <cstddef>
@@ -17,7 +17,7 @@
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/printable.h"
-#include "workbench/commands/progress_line.h"
+#include "workbench/commands/console/progress_line.h"
 #include "workbench/project/utc_time.h"
 #include "workbench/session/monotone_progress.h"
 

@@ -1,4 +1,4 @@
-#include "workbench/commands/console.h"
+#include "workbench/commands/console/console.h"
 
 #include <algorithm>
 #include <array>

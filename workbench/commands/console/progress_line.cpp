@@ -1,4 +1,4 @@
-#include "workbench/commands/progress_line.h"
+#include "workbench/commands/console/progress_line.h"
 
 #include <algorithm>
 #include <cmath>

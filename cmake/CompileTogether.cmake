@@ -1,0 +1,35 @@
+# Reading headers is most of a build's time: with CMAKE_UNITY_BUILD, sources of a target are compiled several at once, in
+# the units that compile_together.awk chooses: compile_together(TARGET). Generated sources are compiled by themselves.
+set(UNIT_SOURCES 8 CACHE STRING "the most sources that are compiled at once")
+set(UNIT_LINES 2000 CACHE STRING "the most lines that are compiled at once")
+set(UNIT_SCRIPT ${CMAKE_SOURCE_DIR}/cmake/compile_together.awk)
+set(DECLARED_NAMES ${CMAKE_BINARY_DIR}/declared_names.txt)
+
+if(CMAKE_UNITY_BUILD)
+  file(GLOB_RECURSE HEADERS ${CMAKE_SOURCE_DIR}/geometry/*.h ${CMAKE_SOURCE_DIR}/smoothing/*.h ${CMAKE_SOURCE_DIR}/meshing/*.h
+    ${CMAKE_SOURCE_DIR}/gpu/*.h ${CMAKE_SOURCE_DIR}/workbench/*.h ${CMAKE_SOURCE_DIR}/tests/*.h)
+  execute_process(COMMAND awk -v public=1 -f ${UNIT_SCRIPT} ${HEADERS} OUTPUT_FILE ${DECLARED_NAMES} COMMAND_ERROR_IS_FATAL ANY)
+endif()
+
+function(compile_together target)
+  if(NOT CMAKE_UNITY_BUILD)
+    return()
+  endif()
+  get_target_property(folder ${target} SOURCE_DIR)
+  get_target_property(sources ${target} SOURCES)
+  list(FILTER sources INCLUDE REGEX "\\.cpp$")
+  list(FILTER sources EXCLUDE REGEX "^${CMAKE_BINARY_DIR}")
+  execute_process(COMMAND awk -v most=${UNIT_SOURCES} -v lines=${UNIT_LINES} -f ${UNIT_SCRIPT} ${DECLARED_NAMES} ${sources}
+    WORKING_DIRECTORY ${folder} OUTPUT_VARIABLE units COMMAND_ERROR_IS_FATAL ANY)
+  string(REGEX MATCHALL "[^\n]+" units "${units}")
+  foreach(line IN LISTS units)
+    string(REGEX MATCH "^([0-9]+) (.*)$" line "${line}")
+    set(place ${folder}/${CMAKE_MATCH_2} TARGET_DIRECTORY ${target})
+    if(CMAKE_MATCH_1 EQUAL 0)
+      set_source_files_properties(${place} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    else()
+      set_source_files_properties(${place} PROPERTIES UNITY_GROUP ${target}_${CMAKE_MATCH_1})
+    endif()
+  endforeach()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
+endfunction()
