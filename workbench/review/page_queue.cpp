@@ -74,7 +74,8 @@ void add_deviation(const LogEntry& entry, const Operation* operation, const Page
     if (found == models.edits.end() || !found->second.before || !found->second.wall) return;
     const WallChange& wall = *found->second.wall;
     // without an opposite wall, as a sheet has none, the size of what changed is all there is
-    const double radius = wall.radius.value_or(found->second.changed->diagonal() / 2);
+    const std::optional<Bounds>& changed = found->second.changed;
+    const double radius = wall.radius ? *wall.radius : changed ? changed->diagonal() / 2 : 0.0;
     if (radius <= 0.0 || wall.largest < kLeastShare * radius) return;
     const std::string by =
         "by up to " + formatted(wall.largest, "%.3g mm") + (wall.inward ? " inwards" : " outwards");
