@@ -36,7 +36,6 @@ function declares(text) {
 function add_helper(word) {
   if (word == "") return
   helper[++helpers] = word
-  own[source, word] = 1
   if (word in public_type) alone = 1
 }
 # constexpr double kOne = 1, kTwo = 2;

@@ -5,7 +5,7 @@
 
 Prints the section of docs/science/repairs.md. --quick: 8 seeds of each in place of 100. --build: seeds from 1, with which the
 operations
-were built, in place of those from 101, on which they are reported. Runs bench_posing, which scripts/build makes
+were built, in place of those from 101, on which they are reported. Runs bench_posing
 (scripts/build bench_posing). Exit code 1 if a goal is missed.
 """
 import json

@@ -4,7 +4,7 @@
   scripts/repairs_separate.py [--quick] [--build]
 
 Prints the section of docs/science/repairs.md. --quick: 20 phantoms in place of 100. --build: seeds 1-100, with which the
-operation was built, in place of 101-200, on which it is reported. Runs bench_separate, which scripts/build makes.
+operation was built, in place of 101-200, on which it is reported. Runs bench_separate, which scripts/build bench_separate makes.
 """
 import collections
 import json

@@ -4,7 +4,7 @@
   scripts/repairs_stamp.py [--quick] [--build]
 
 Prints the section of docs/science/repairs.md. --quick: 20 placements in place of 100. --build: seeds 1-100, with which
-the operation was built, in place of 101-200, on which it is reported. Runs bench_stamp, which scripts/build makes
+the operation was built, in place of 101-200, on which it is reported. Runs bench_stamp
 (scripts/build bench_stamp).
 """
 import collections

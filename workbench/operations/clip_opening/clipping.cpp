@@ -183,9 +183,7 @@ OpeningPlan stored_plan(const Surface& surface, const Arguments& arguments) {
         throw UsageError("clip-opening: each normal in planes must be of unit length");
     const std::vector<Patch> patches = patches_in(arguments.records("names"));
     if (arguments.has("closings")) plan.closings = closings_in(arguments.records("closings"));
-    // A run that found nothing to open has recorded empty lists; by hand, none at all is a mistake.
-    const bool nothing = plan.openings.empty() && plan.closings.empty() && !arguments.has("names");
-    if (nothing || patches.size() < plan.openings.size())
+    if (patches.size() < plan.openings.size())  // both empty: there was nothing to open
         throw UsageError(
             "clip-opening: planes needs a record for each opening, and names as many records");
     for (std::size_t i = 0; i < plan.openings.size(); ++i) plan.openings[i].patch = patches[i];
