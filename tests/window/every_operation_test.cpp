@@ -148,15 +148,35 @@ void try_out(Driver& window, const Operation& operation, const ExampleGround& gr
     CHECK(edit_count(window) == edits);
 }
 
-}  // namespace
+/// The table is dealt to several scenarios, which ctest runs side by side.
+constexpr std::size_t kHands = 4;
 
-SCENARIO("Every operation works from the window", "[window][operations]") {
+void try_hand(std::size_t hand) {
     const auto window = window_on(Screen::None);
     if (!window) return;
     const Files files;
-    for (const Operation& operation : operation_table()) {
+    for (std::size_t i = hand; i < operation_table().size(); i += kHands) {
+        const Operation& operation = operation_table()[i];
         INFO(operation.name);
         open_file(*window, files.input(operation.example.scene));
         try_out(*window, operation, files.ground(operation.example.scene));
     }
+}
+
+}  // namespace
+
+SCENARIO("Every operation works from the window, first hand", "[window][operations]") {
+    try_hand(0);
+}
+
+SCENARIO("Every operation works from the window, second hand", "[window][operations]") {
+    try_hand(1);
+}
+
+SCENARIO("Every operation works from the window, third hand", "[window][operations]") {
+    try_hand(2);
+}
+
+SCENARIO("Every operation works from the window, fourth hand", "[window][operations]") {
+    try_hand(kHands - 1);
 }

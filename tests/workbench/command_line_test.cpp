@@ -10,6 +10,7 @@
 #include "geometry/formats/surface_file.h"
 #include "geometry/kernel/whole_file.h"
 #include "gpu/png.h"
+#include "tests/support/beginning.h"
 #include "tests/support/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
@@ -320,19 +321,23 @@ SCENARIO("A project that is not there or no project is bad input", "[workbench][
 }
 
 SCENARIO("Earlier edits are changed and removed", "[workbench][command-line]") {
-    const std::string folder = temporary_folder(), project = folder + "/ball.vbench";
-    vesselbench::write_surface(icosphere(5.0, 3), folder + "/ball.vtp");
-    const auto json_of = [&](std::vector<std::string> arguments) {
+    const auto json_of = [](std::vector<std::string> arguments) {
         arguments.emplace_back("--json");
         const ProgramRun result = run(arguments);
         INFO(result.err);
         REQUIRE(result.exit_code == 0);
         return Json::parse(result.out);
     };
-    CHECK(json_of({"new", project, folder + "/ball.vtp"})["edits"].size() == 1);
-    json_of({"apply", project, "smooth", "iterations=3", "lambda=0.2"});
-    json_of({"apply", project, "subdivide"});
-    const Json changed = json_of({"change", project, "2", "iterations=5"});
+    static const Beginning beginning([&](const std::string& folder) {
+        const std::string ball = folder + "/ball.vbench";
+        vesselbench::write_surface(icosphere(5.0, 3), folder + "/ball.vtp");
+        CHECK(json_of({"new", ball, folder + "/ball.vtp"})["edits"].size() == 1);
+        json_of({"apply", ball, "smooth", "iterations=3", "lambda=0.2"});
+        json_of({"apply", ball, "subdivide"});
+        return json_of({"change", ball, "2", "iterations=5"});
+    });
+    const Json& changed = beginning.again();
+    const std::string folder = beginning.folder(), project = folder + "/ball.vbench";
     CHECK(changed["edit"] == 2);
     CHECK(changed["revision"] == 2);
     CHECK(changed["given"]["iterations"] == 5);
@@ -402,10 +407,12 @@ SCENARIO("Earlier edits are changed and removed", "[workbench][command-line]") {
         CHECK(json_of({"log", project})["edits"][2]["status"] == "done");
         CHECK(json_of({"replay", project})["same"] == true);
     }
-    check_usage_error({"change", project, "7"}, {"no edit 7", "vesselbench log ball.vbench"});
-    check_usage_error({"remove", project, "7"}, {"no edit 7"});
-    check_usage_error({"change", project, "2", "iteration=5"}, {"did you mean 'iterations'"});
-    check_usage_error({"change", project, "two"}, {"EDIT"});
+    THEN("an edit that does not exist is wrong usage, and so is an unknown parameter") {
+        check_usage_error({"change", project, "7"}, {"no edit 7", "vesselbench log ball.vbench"});
+        check_usage_error({"remove", project, "7"}, {"no edit 7"});
+        check_usage_error({"change", project, "2", "iteration=5"}, {"did you mean 'iterations'"});
+        check_usage_error({"change", project, "two"}, {"EDIT"});
+    }
 }
 
 SCENARIO("A picture shows a vertex attribute with a scale", "[workbench][command-line]") {

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 #include <set>
+#include <utility>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -11,6 +12,7 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/plain_name.h"
 #include "geometry/phantoms/phantom.h"
+#include "tests/support/beginning.h"
 #include "tests/support/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
@@ -93,8 +95,7 @@ ProgramRun run(const std::vector<std::string>& arguments) {
 }
 
 /// A project with that tube.
-std::string bumpy_project() {
-    const std::string folder = temporary_folder();
+std::string bumpy_project(const std::string& folder = temporary_folder()) {
     write_surface(tube_with_bump(), folder + "/bumpy.stl");
     REQUIRE(run({"new", folder + "/p.vbench", folder + "/bumpy.stl", "--units", "mm"}).exit_code ==
             0);
@@ -359,21 +360,25 @@ SCENARIO("What could not be looked for is said", "[workbench][findings]") {
 
 SCENARIO("A finding is dismissed with a reason that stays in the project's record",
          "[workbench][findings]") {
-    const std::string project = bumpy_project();
-    const std::string id = id_of(findings_in(project), "bump");
-    REQUIRE_FALSE(id.empty());
-    const std::string reason = "a \x1b[31mtrue\x1b[0m <script> 'bump' \"here\"\nit stays";
-    REQUIRE(run({"findings", project, "--dismiss", id, "--reason", reason}).exit_code == 0);
-    const Json now = findings_in(project);
-    CHECK(id_of(now, "bump").empty());
-    REQUIRE(now["dismissed"].size() == 1);
-    CHECK(now["dismissed"][0]["reason"] == reason);
-    const ProgramRun listed = run({"findings", project});
-    CHECK(listed.exit_code == 0);
-    CHECK(listed.out.find('\x1b') == std::string::npos);
-    const ProgramRun audit = run({"audit", project, "--json"});
-    CHECK(audit.exit_code == 0);
-    CHECK_THAT(audit.out, Contains("finding " + id));
+    static const Beginning beginning([](const std::string& folder) {
+        const std::string project = bumpy_project(folder);
+        const std::string id = id_of(findings_in(project), "bump");
+        REQUIRE_FALSE(id.empty());
+        const std::string reason = "a \x1b[31mtrue\x1b[0m <script> 'bump' \"here\"\nit stays";
+        REQUIRE(run({"findings", project, "--dismiss", id, "--reason", reason}).exit_code == 0);
+        const Json now = findings_in(project);
+        CHECK(id_of(now, "bump").empty());
+        REQUIRE(now["dismissed"].size() == 1);
+        CHECK(now["dismissed"][0]["reason"] == reason);
+        const ProgramRun listed = run({"findings", project});
+        CHECK(listed.exit_code == 0);
+        CHECK(listed.out.find('\x1b') == std::string::npos);
+        const ProgramRun audit = run({"audit", project, "--json"});
+        CHECK(audit.exit_code == 0);
+        CHECK_THAT(audit.out, Contains("finding " + id));
+        return std::pair(project, id);
+    });
+    const auto& [project, id] = beginning.again();
     WHEN("the bump is smoothed away") {
         REQUIRE(run({"apply", project, "brush-smooth", "at=2.7,0,12", "radius=2", "strength=1",
                      "passes=100"})

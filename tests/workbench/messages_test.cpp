@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/formats/surface_file.h"
+#include "tests/support/beginning.h"
 #include "tests/support/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
@@ -55,7 +56,8 @@ SCENARIO("The time left follows from the speed so far", "[workbench][messages]")
 }
 
 SCENARIO("Messages can be left out, and kept in a file", "[workbench][messages]") {
-    const std::string folder = temporary_folder(), project = tube_project(folder);
+    static const Beginning beginning(tube_project);
+    const std::string project = beginning.again(), folder = beginning.folder();
     const std::string log = folder + "/with spaces.log";
     const std::vector<std::string> failing = {"apply", project, "fill-hole", "at=0,0,0", "-q"};
     GIVEN("--quiet") {

@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 #include <stop_token>
+#include <utility>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -14,6 +15,7 @@
 #include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/whole_file.h"
+#include "tests/support/beginning.h"
 #include "tests/support/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
@@ -41,10 +43,10 @@ ProgramRun run(const std::vector<std::string>& arguments) {
 
 /// A folder with a tube, a short recipe for it, and the folder `out` of its results.
 struct Place {
-    std::string folder = temporary_folder();
+    std::string folder;
     std::string out = folder + "/out";
 
-    Place() {
+    explicit Place(const std::string& where = temporary_folder()) : folder(where) {
         write_surface(closed_tube(2.0, 20.0, 16, 20), folder + "/tube.stl");
         write_text(folder + "/recipe.json", R"([{"operation": "repair"}])");
     }
@@ -158,14 +160,17 @@ SCENARIO("A preparation that fails at once leaves the folder of another one alon
 }
 
 SCENARIO("prepare keeps files of others under another name", "[workbench][prepare-folder]") {
-    const Place place;
-    fs::create_directory(place.out);
     const std::map<std::string, std::string> own = {{"surface.stl", "a drawing"},
                                                     {"surface.vtp", "notes"},
                                                     {"report.html", "<p>a letter</p>"},
                                                     {"report.json", R"({"products": []})"}};
-    for (const auto& [name, text] : own) write_text(place.out + "/" + name, text);
-    const ProgramRun first = place.prepared();
+    static const Beginning beginning([&](const std::string& folder) {
+        const Place made(folder);
+        fs::create_directory(made.out);
+        for (const auto& [name, text] : own) write_text(made.out + "/" + name, text);
+        return std::pair(made, made.prepared());
+    });
+    const auto& [place, first] = beginning.again();
     INFO(first.err);
     REQUIRE(first.exit_code == 0);
     for (const auto& [name, text] : own) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -10,6 +11,7 @@
 #include "geometry/formats/surface_file.h"
 #include "geometry/kernel/surface_distance.h"
 #include "geometry/kernel/whole_file.h"
+#include "tests/support/beginning.h"
 #include "tests/support/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
@@ -111,13 +113,16 @@ SCENARIO("A mask's model for simulation is smoother than the one for planning",
 }
 
 SCENARIO("A model for planning keeps its distance to a neighbour", "[workbench][prepare]") {
-    const std::string folder = phantom("tumour"), out = temporary_folder() + "/planned";
-    const std::string neighbour = folder + "/neighbour.vtp";
-    const double exact = least_distance(read_surface(folder + "/exact.vtp").surface,
+    static const std::string tumour = phantom("tumour");
+    const std::string mask = tumour + "/mask.nii.gz", neighbour = tumour + "/neighbour.vtp";
+    const double exact = least_distance(read_surface(tumour + "/exact.vtp").surface,
                                         read_surface(neighbour).surface);  // [mm]
     GIVEN("a mask") {
-        const Json report =
-            prepared(folder + "/mask.nii.gz", "planning", out, {"--neighbour", neighbour});
+        static const Beginning beginning([&](const std::string& folder) {
+            return prepared(mask, "planning", folder + "/planned", {"--neighbour", neighbour});
+        });
+        const Json& report = beginning.again();
+        const std::string out = beginning.folder() + "/planned";
         THEN("the report says how near it comes, within a quarter of a voxel of the truth") {
             const double found = report["neighbours"]["neighbour"]["distance_mm"];
             CHECK(std::abs(found - exact) < 0.25 * 0.453);
@@ -130,12 +135,11 @@ SCENARIO("A model for planning keeps its distance to a neighbour", "[workbench][
                     .size();
             };
             const std::size_t made = edits();
-            prepared(folder + "/mask.nii.gz", "planning", out,
-                     {"--neighbour", neighbour, "--resume"});
+            prepared(mask, "planning", out, {"--neighbour", neighbour, "--resume"});
             CHECK(edits() == made);
             AND_THEN("another one is loaded beside it") {
-                const Json more = prepared(folder + "/mask.nii.gz", "planning", out,
-                                           {"--neighbour", folder + "/exact.vtp", "--resume"});
+                const Json more = prepared(mask, "planning", out,
+                                           {"--neighbour", tumour + "/exact.vtp", "--resume"});
                 CHECK(edits() == made + 1);
                 CHECK(more["neighbours"]["exact"]["distance_mm"] == Approx(0.0).margin(0.5));
                 CHECK(more["neighbours"].contains("neighbour"));
@@ -144,7 +148,7 @@ SCENARIO("A model for planning keeps its distance to a neighbour", "[workbench][
     }
     GIVEN("a mask whose staircases are smoothed") {
         const Json report =
-            prepared(folder + "/mask.nii.gz", "planning", out,
+            prepared(mask, "planning", temporary_folder() + "/planned",
                      {"--neighbour", neighbour, "--set", "extract-surface.mask_surface=midway"});
         THEN("smoothing is aware of the distance and keeps it") {
             const Json& steps = report["steps"];
@@ -160,9 +164,12 @@ SCENARIO("A model for planning keeps its distance to a neighbour", "[workbench][
 }
 
 SCENARIO("A label map's other labels are neighbours", "[workbench][prepare]") {
-    const std::string mask = phantom("tumour") + "/mask.nii.gz";
-    const std::string out = temporary_folder() + "/labelled";
-    const Json report = prepared(mask, "planning", out, {"--neighbour", "1"});
+    static const std::string mask = phantom("tumour") + "/mask.nii.gz";
+    static const Beginning beginning([](const std::string& folder) {
+        return prepared(mask, "planning", folder + "/labelled", {"--neighbour", "1"});
+    });
+    const Json& report = beginning.again();
+    const std::string out = beginning.folder() + "/labelled";
     CHECK(report["neighbours"]["label-1"]["distance_mm"] == Approx(0.0).margin(0.05));  // itself
     THEN("a surface has none") {
         const ProgramRun result = run({"prepare", out + "/surface.stl", "--for", "planning",
@@ -180,13 +187,17 @@ SCENARIO("A label map's other labels are neighbours", "[workbench][prepare]") {
 }
 
 SCENARIO("One project holds a model for flow and one for printing", "[workbench][prepare]") {
-    const std::string folder = temporary_folder(), file = folder + "/tube.stl";
-    const std::string out = folder + "/both", project = out + "/project.vbench";
-    write_surface(closed_tube(2.0, 20.0, 32, 40), file);
-    const Json flow = prepared(file, "cfd", out, {"--units", "mm"});
-    const Json before = edits_in(project);
-    const Json print = prepared(file, "rp", out, {"--units", "mm", "--resume"});
-    const Json now = edits_in(project);
+    static const Beginning beginning([](const std::string& folder) {
+        const std::string tube = folder + "/tube.stl", both = folder + "/both";
+        write_surface(closed_tube(2.0, 20.0, 32, 40), tube);
+        const Json flow = prepared(tube, "cfd", both, {"--units", "mm"});
+        const Json before = edits_in(both + "/project.vbench");
+        const Json print = prepared(tube, "rp", both, {"--units", "mm", "--resume"});
+        return std::tuple(flow, before, print, edits_in(both + "/project.vbench"));
+    });
+    const auto& [flow, before, print, now] = beginning.again();
+    const std::string file = beginning.folder() + "/tube.stl", out = beginning.folder() + "/both";
+    const std::string project = out + "/project.vbench";
     THEN("the folder has the products of both") {
         const Names names = names_in(out);
         for (const char* name : {"openfoam", "volume.vtu", "print.stl", "print.3mf"})
@@ -242,19 +253,23 @@ SCENARIO("A model that was undone does not stand in the way of another purpose",
 }
 
 SCENARIO("What a purpose lacks in shared steps is made in its own", "[workbench][prepare]") {
-    const std::string folder = temporary_folder(), file = folder + "/tube.stl";
+    static const Beginning beginning([](const std::string& folder) {
+        write_surface(closed_tube(2.0, 20.0, 32, 40), folder + "/tube.stl");
+        write_text(folder + "/recipe.json", R"([
+            {"operation": "repair"},
+            {"operation": "smooth", "step": "source", "arguments": {"iterations": 3}},
+            {"operation": "smooth", "step": "source", "arguments": {"iterations": 8},
+             "when": "simulation"}])");
+        const Json report = prepared(folder + "/tube.stl", "planning", folder + "/both",
+                                     {"--units", "mm", "--recipe", folder + "/recipe.json"});
+        CHECK(edits_in(folder + "/both/project.vbench").size() == 3);
+        return report["quality"]["after"]["volume"].get<double>();
+    });
+    const double planned = beginning.again();
+    const std::string folder = beginning.folder(), file = folder + "/tube.stl";
     const std::string out = folder + "/both", project = out + "/project.vbench";
-    write_surface(closed_tube(2.0, 20.0, 32, 40), file);
-    write_text(folder + "/recipe.json", R"([
-        {"operation": "repair"},
-        {"operation": "smooth", "step": "source", "arguments": {"iterations": 3}},
-        {"operation": "smooth", "step": "source", "arguments": {"iterations": 8},
-         "when": "simulation"}])");
-    const std::vector<std::string> with = {"--units", "mm", "--recipe", folder + "/recipe.json"};
-    std::vector<std::string> resuming = with;
-    resuming.emplace_back("--resume");
-    const double planned = prepared(file, "planning", out, with)["quality"]["after"]["volume"];
-    CHECK(edits_in(project).size() == 3);
+    const std::vector<std::string> resuming = {"--units", "mm", "--recipe", folder + "/recipe.json",
+                                               "--resume"};
     THEN("the model made by shared steps alone stays as it is") {
         prepared(file, "simulation", out, resuming);
         const Json edits = edits_in(project);

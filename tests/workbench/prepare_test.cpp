@@ -9,6 +9,7 @@
 #include <regex>
 #include <sstream>
 #include <thread>
+#include <tuple>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -19,6 +20,7 @@
 #include "geometry/kernel/edges.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
+#include "tests/support/beginning.h"
 #include "tests/support/child_process.h"
 #include "tests/support/image_shapes.h"
 #include "tests/support/iso_surface.h"
@@ -205,29 +207,35 @@ SCENARIO("What has no vessel in it is refused", "[workbench][prepare]") {
 }
 
 SCENARIO("A vessel that an edit loses ends prepare with an error", "[workbench][prepare]") {
-    const std::string folder = temporary_folder();
     const auto side = [](const Vec3& p) {
         return std::min(capsule(p, Vec3(0, 0, -18), Vec3(0, 0, 18), 3.0),
                         capsule(p, Vec3::Zero(), Vec3(16, 0, 0), 1.2));
     };
-    const Surface whole = iso_surface(side, {Vec3(-5, -5, -23), Vec3(19, 5, 23)}, 0.4);
-    std::vector<Triangle> open;  // at both ends of the trunk: the side branch stays closed
-    for (const Triangle& t : whole.triangles())
-        if (std::abs(whole.points()[t[0]].z()) < 17.0) open.push_back(t);
-    write_surface(make_surface(whole.points(), open), folder + "/side.stl");
-    std::ofstream(folder + "/recipe.json") << R"([
-        {"operation": "repair"},
-        {"operation": "clip-opening", "arguments": {"closed": [17, 0, 0]}},
-        {"operation": "remesh", "arguments": {"mode": "uniform", "edge": 3.0}},
-        {"operation": "tetrahedralize"}])";
-    const auto prepared = [&](const std::vector<std::string>& more) {
+    const auto prepared_in = [](const std::string& folder, const std::vector<std::string>& more) {
         std::vector<std::string> command = {
             "prepare",  folder + "/side.stl",    "--units", "mm",           "--for", "cfd",
             "--recipe", folder + "/recipe.json", "--out",   folder + "/out"};
         command.insert(command.end(), more.begin(), more.end());
         return run(command);
     };
-    const ProgramRun result = prepared({});
+    static const Beginning beginning([&](const std::string& folder) {
+        const Surface whole = iso_surface(side, {Vec3(-5, -5, -23), Vec3(19, 5, 23)}, 0.4);
+        std::vector<Triangle> open;  // at both ends of the trunk: the side branch stays closed
+        for (const Triangle& t : whole.triangles())
+            if (std::abs(whole.points()[t[0]].z()) < 17.0) open.push_back(t);
+        write_surface(make_surface(whole.points(), open), folder + "/side.stl");
+        write_text(folder + "/recipe.json", R"([
+            {"operation": "repair"},
+            {"operation": "clip-opening", "arguments": {"closed": [17, 0, 0]}},
+            {"operation": "remesh", "arguments": {"mode": "uniform", "edge": 3.0}},
+            {"operation": "tetrahedralize"}])");
+        return prepared_in(folder, {});
+    });
+    const ProgramRun& result = beginning.again();
+    const std::string& folder = beginning.folder();
+    const auto prepared = [&](const std::vector<std::string>& more) {
+        return prepared_in(folder, more);
+    };
     INFO(result.err);
     CHECK(result.exit_code == 1);
     CHECK_THAT(result.err, Contains("the model has lost vessels:") && Contains("diameter 2.") &&
@@ -353,8 +361,11 @@ SCENARIO("An opening in a vessel's side ends prepare with a command that mends i
 }
 
 SCENARIO("A phantom becomes a CFD case", "[workbench][prepare]") {
-    const std::string out = temporary_folder() + "/cfd";
-    const ProgramRun result = run({"prepare", tube(), "--for", "cfd", "--out", out, "--json"});
+    static const Beginning beginning([](const std::string& folder) {
+        return run({"prepare", tube(), "--for", "cfd", "--out", folder + "/cfd", "--json"});
+    });
+    const ProgramRun& result = beginning.again();
+    const std::string out = beginning.folder() + "/cfd";
     INFO(result.err);
     REQUIRE(result.exit_code == 0);
     CHECK(names_in(out) == Names{"openfoam", "project.vbench", "report.html", "report.json",
@@ -535,22 +546,35 @@ SCENARIO("What a resumed preparation runs is told, and its report has all warnin
         return std::min(capsule(p, Vec3(0, 0, -18), Vec3(0, 0, 18), 2.5),
                         capsule(p, Vec3::Zero(), Vec3(4.5, 0, 0), 1.0));
     };
-    const std::string folder = temporary_folder(), out = folder + "/out";
-    const Surface closed = iso_surface(knob, {Vec3(-5, -5, -23), Vec3(8, 5, 23)}, 0.4);
-    std::vector<bool> kept(closed.triangle_count());
-    for (TriangleId t = 0; t < kept.size(); ++t)
-        kept[t] = std::abs(closed.points()[closed.triangles()[t][0]].z()) < 17.0;
-    write_surface(select_triangles(closed, kept), folder + "/knob.stl");
-    write_text(folder + "/recipe.json", R"([
-        {"operation": "repair"},
-        {"operation": "remove-branch", "optional": true, "arguments": {"tip": [0, 0, 16]}},
-        {"operation": "clip-opening", "arguments": {"accept_doubts": true}},
-        {"operation": "remesh", "arguments": {"mode": "uniform", "edge": 20},
-         "otherwise": {"edge": 0.6}}])");
-    const std::vector<std::string> command = {"prepare",  folder + "/knob.stl",   "--units", "mm",
-                                              "--for",    "simulation",           "--out",   out,
-                                              "--recipe", folder + "/recipe.json"};
-    const auto report = [&] { return Json::parse(text_of(out + "/report.json")); };
+    const auto report_in = [](const std::string& out) {
+        return Json::parse(text_of(out + "/report.json"));
+    };
+    static const Beginning beginning([&](const std::string& folder) {
+        const Surface closed = iso_surface(knob, {Vec3(-5, -5, -23), Vec3(8, 5, 23)}, 0.4);
+        std::vector<bool> kept(closed.triangle_count());
+        for (TriangleId t = 0; t < kept.size(); ++t)
+            kept[t] = std::abs(closed.points()[closed.triangles()[t][0]].z()) < 17.0;
+        write_surface(select_triangles(closed, kept), folder + "/knob.stl");
+        write_text(folder + "/recipe.json", R"([
+            {"operation": "repair"},
+            {"operation": "remove-branch", "optional": true, "arguments": {"tip": [0, 0, 16]}},
+            {"operation": "clip-opening", "arguments": {"accept_doubts": true}},
+            {"operation": "remesh", "arguments": {"mode": "uniform", "edge": 20},
+             "otherwise": {"edge": 0.6}}])");
+        const std::string out = folder + "/out";
+        std::vector<std::string> command = {"prepare",  folder + "/knob.stl",   "--units", "mm",
+                                            "--for",    "simulation",           "--out",   out,
+                                            "--recipe", folder + "/recipe.json"};
+        const ProgramRun first = run(command);
+        INFO(first.err);
+        REQUIRE(first.exit_code == 0);
+        const Json before = report_in(out);
+        REQUIRE(run({"change", out + "/project.vbench", "2", "caps=false"}).exit_code == 0);
+        command.emplace_back("--resume");
+        return std::tuple(first, before, command, run(command));
+    });
+    const auto& [first, before, again, resumed] = beginning.again();
+    const std::string out = beginning.folder() + "/out";
     const auto told = [](const ProgramRun& result, const std::string& operation) {
         std::vector<std::string> warnings;
         std::istringstream lines(result.err);
@@ -558,23 +582,15 @@ SCENARIO("What a resumed preparation runs is told, and its report has all warnin
             if (line.starts_with("warning: " + operation)) warnings.push_back(line.substr(9));
         return warnings;
     };
-    const ProgramRun first = run(command);
-    INFO(first.err);
-    REQUIRE(first.exit_code == 0);
-    const Json before = report();
     REQUIRE_FALSE(told(first, "clip-opening").empty());
     REQUIRE_FALSE(told(first, "remesh: it was made with edge=0.6 instead").empty());
     REQUIRE_FALSE(told(first, "remove-branch: the step was skipped").empty());
-    REQUIRE(run({"change", out + "/project.vbench", "2", "caps=false"}).exit_code == 0);
-    auto again = command;
-    again.emplace_back("--resume");
-    const ProgramRun resumed = run(again);
     INFO(resumed.err);
     REQUIRE(resumed.exit_code == 0);
     for (const char* line : {"openings: clip-opening (", "remeshing: remesh ("})
         CHECK_THAT(resumed.err, Contains(line));
     CHECK(told(resumed, "clip-opening") == told(first, "clip-opening"));
-    const Json after = report();
+    const Json after = report_in(out);
     for (const Json& warning : before["warnings"]) {
         CAPTURE(warning);
         CHECK(std::ranges::count(after["warnings"], warning) == 1);
@@ -584,7 +600,7 @@ SCENARIO("What a resumed preparation runs is told, and its report has all warnin
         REQUIRE(run({"apply", out + "/project.vbench", "remove-branch", "tip=5.5,0,0"}).exit_code ==
                 0);
         REQUIRE(run(again).exit_code == 0);
-        CHECK_THAT(report()["warnings"].dump(), !Contains("was skipped"));
+        CHECK_THAT(report_in(out)["warnings"].dump(), !Contains("was skipped"));
     }
     THEN("an edit that was removed is not called made") {
         REQUIRE(run({"remove", out + "/project.vbench", "4"}).exit_code == 0);
@@ -648,23 +664,26 @@ SCENARIO("A vessel's side is not opened where an image ends", "[workbench][prepa
 }
 
 SCENARIO("prepare does not go on where it cannot", "[workbench][prepare]") {
-    const std::string folder = temporary_folder(), out = folder + "/out";
-    write_surface(closed_tube(2.0, 20.0, 32, 40), folder + "/tube.stl");
-    const auto again = [&](std::vector<std::string> more) {
-        std::vector<std::string> command = {
-            "prepare", folder + "/tube.stl", "--units", "mm", "--out", out, "--resume"};
-        command.insert(command.end(), more.begin(), more.end());
-        const ProgramRun result = run(command);
-        CHECK(result.exit_code == 2);
-        return result.err;
-    };
-    CHECK_THAT(again({"--for", "cfd"}), Contains("no project.vbench"));
-    CHECK_FALSE(fs::exists(out));
-    REQUIRE(
-        run({"prepare", folder + "/tube.stl", "--units", "mm", "--for", "simulation", "--out", out})
-            .exit_code == 0);
-    CHECK_THAT(again({"--for", "simulation", "--set", "remesh.edge=0.9"}),
-               Contains("change " + out + "/project.vbench") && Contains("edge=0.9"));
+    static const Beginning beginning([](const std::string& folder) {
+        const std::string out = folder + "/out";
+        write_surface(closed_tube(2.0, 20.0, 32, 40), folder + "/tube.stl");
+        const std::vector<std::string> command = {
+            "prepare", folder + "/tube.stl", "--units", "mm", "--out", out};
+        const auto with = [&](std::vector<std::string> more) {
+            more.insert(more.begin(), command.begin(), command.end());
+            return run(more);
+        };
+        const ProgramRun none = with({"--resume", "--for", "cfd"});
+        CHECK(none.exit_code == 2);
+        CHECK_THAT(none.err, Contains("no project.vbench"));
+        CHECK_FALSE(fs::exists(out));
+        REQUIRE(with({"--for", "simulation"}).exit_code == 0);
+        return with({"--resume", "--for", "simulation", "--set", "remesh.edge=0.9"});
+    });
+    const ProgramRun& refused = beginning.again();
+    const std::string folder = beginning.folder(), out = folder + "/out";
+    CHECK(refused.exit_code == 2);
+    CHECK_THAT(refused.err, Contains("change " + out + "/project.vbench") && Contains("edge=0.9"));
     THEN("the input is another one, or read in another unit") {
         write_surface(closed_tube(2.5, 20.0, 32, 40), folder + "/other.stl");
         const auto resumed = [&](const std::string& file, const std::string& units) {

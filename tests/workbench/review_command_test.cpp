@@ -1,10 +1,13 @@
 #include <filesystem>
+#include <tuple>
+#include <utility>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
 #include "geometry/formats/surface_file.h"
 #include "geometry/kernel/whole_file.h"
+#include "tests/support/beginning.h"
 #include "tests/support/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
@@ -66,19 +69,23 @@ std::string verdicts(const std::string& project, const std::string& reviewer,
 
 SCENARIO("An export can require that reviewers have accepted the model",
          "[workbench][command-line][review]") {
-    const std::string folder = temporary_folder(), project = new_project(folder);
-    const std::vector<std::string> gated = {"export", project, folder + "/out.stl", "--require",
-                                            "accepted"};
-    ProgramRun refused = run(gated);
-    CHECK(refused.exit_code == 1);
-    CHECK_THAT(refused.err, Contains("1 load-surface (open)") && Contains("2 smooth (open)"));
-    CHECK_FALSE(std::filesystem::exists(folder + "/out.stl"));
-    CHECK(json_of(gated)["diagnostics"][0]["code"] == "not-accepted");
-    const std::string kern = verdicts(project, "A. Kern", "accept", folder + "/kern.json");
-    ProgramRun entered = run({"review", project, "--import", kern});
-    CHECK(entered.exit_code == 0);
-    CHECK_THAT(entered.out, Contains("accepted by A. Kern"));
-    CHECK_THAT(run({"review", project, "--import", kern}).err, Contains("entered already"));
+    static const Beginning beginning([](const std::string& folder) {
+        const std::string project = new_project(folder), file = folder + "/out.stl";
+        const std::vector<std::string> gated = {"export", project, file, "--require", "accepted"};
+        const ProgramRun refused = run(gated);
+        CHECK(refused.exit_code == 1);
+        CHECK_THAT(refused.err, Contains("1 load-surface (open)") && Contains("2 smooth (open)"));
+        CHECK_FALSE(std::filesystem::exists(file));
+        CHECK(json_of(gated)["diagnostics"][0]["code"] == "not-accepted");
+        const std::string kern = verdicts(project, "A. Kern", "accept", folder + "/kern.json");
+        const ProgramRun entered = run({"review", project, "--import", kern});
+        CHECK(entered.exit_code == 0);
+        CHECK_THAT(entered.out, Contains("accepted by A. Kern"));
+        CHECK_THAT(run({"review", project, "--import", kern}).err, Contains("entered already"));
+        return std::tuple(project, gated, kern);
+    });
+    const auto& [project, gated, kern] = beginning.again();
+    const std::string& folder = beginning.folder();
     THEN("it is written then, and the record says so") {
         CHECK(run(gated).exit_code == 0);
         CHECK(std::filesystem::exists(folder + "/out.stl"));
@@ -101,7 +108,7 @@ SCENARIO("An export can require that reviewers have accepted the model",
         const std::string roth = verdicts(project, "B. Roth", "reject", folder + "/roth.json");
         CHECK(run({"review", project, "--import", roth}).exit_code == 0);
         CHECK(json_of({"review", project})["status"] == "disputed");
-        refused = run(gated);
+        const ProgramRun refused = run(gated);
         CHECK(refused.exit_code == 1);
         CHECK_THAT(refused.err, Contains("2 smooth (disputed)"));
     }
@@ -118,20 +125,25 @@ SCENARIO("An export can require that reviewers have accepted the model",
 
 SCENARIO("The agreement of reviewers is printed over several projects",
          "[workbench][command-line][review]") {
-    const std::string folder = temporary_folder(), project = new_project(folder);
-    const std::string other = new_project(temporary_folder());
-    for (const std::string& judged : {project, other})
-        for (const char* reviewer : {"A. Kern", "B. Roth"})
-            REQUIRE(run({"review", judged, "--import",
-                         verdicts(judged, reviewer, "accept", folder + "/v.json")})
-                        .exit_code == 0);
-    const ProgramRun good = run({"review", "--summary", project, other});
-    CHECK(good.exit_code == 0);
-    CHECK_THAT(good.out, Contains("2 projects, 2 reviewers: A. Kern, B. Roth") &&
-                             Contains("load-surface") && Contains("too few"));
-    const Json json = json_of({"review", project, "--summary"});
-    CHECK(json["all"]["edits"] == 2);
-    CHECK(json["all"]["share"] == 1.0);
+    static const Beginning beginning([](const std::string& folder) {
+        std::filesystem::create_directory(folder + "/other");
+        const std::string project = new_project(folder), other = new_project(folder + "/other");
+        for (const std::string& judged : {project, other})
+            for (const char* reviewer : {"A. Kern", "B. Roth"})
+                REQUIRE(run({"review", judged, "--import",
+                             verdicts(judged, reviewer, "accept", folder + "/v.json")})
+                            .exit_code == 0);
+        const ProgramRun good = run({"review", "--summary", project, other});
+        CHECK(good.exit_code == 0);
+        CHECK_THAT(good.out, Contains("2 projects, 2 reviewers: A. Kern, B. Roth") &&
+                                 Contains("load-surface") && Contains("too few"));
+        const Json json = json_of({"review", project, "--summary"});
+        CHECK(json["all"]["edits"] == 2);
+        CHECK(json["all"]["share"] == 1.0);
+        return std::pair(project, other);
+    });
+    const auto& [project, other] = beginning.again();
+    const std::string& folder = beginning.folder();
     THEN("what cannot be read is named, and the others are counted") {
         write_file(folder + "/damaged.vbench", "damaged");
         const std::vector<std::string> mixed = {"review", "--summary", folder + "/damaged.vbench",
@@ -155,25 +167,30 @@ SCENARIO("The agreement of reviewers is printed over several projects",
 SCENARIO("Signed verdicts are verified against allowed signers",
          "[workbench][command-line][review]") {
     if (!can_sign()) return;
-    const std::string folder = temporary_folder(), project = new_project(folder);
-    const std::string key = new_signing_key(),
-                      signers = allowed_signers(allowed_line("kern@clinic.example", key)),
-                      others = allowed_signers(allowed_line("roth", new_signing_key()));
-    const std::string kern = verdicts(project, "A. Kern", "accept", folder + "/kern.json");
-    const auto import_with = [&](const std::string& allowed) {
-        return run({"review", project, "--import", kern, "--signers", allowed});
-    };
-    ProgramRun refused = import_with(signers);
-    CHECK(refused.exit_code == 3);
-    CHECK_THAT(refused.err, Contains("kern.json is not signed"));
-    sign(kern, key);
-    refused = import_with(others);
-    CHECK(refused.exit_code == 3);
-    CHECK_THAT(refused.err, Contains("its signature does not verify"));
-    CHECK(json_of({"review", project})["files"] == 0);
+    static const Beginning beginning([](const std::string& folder) {
+        const std::string project = new_project(folder), key = new_signing_key(),
+                          signers = allowed_signers(allowed_line("kern@clinic.example", key)),
+                          others = allowed_signers(allowed_line("roth", new_signing_key()));
+        const std::string kern = verdicts(project, "A. Kern", "accept", folder + "/kern.json");
+        const auto import_with = [&](const std::string& allowed) {
+            return run({"review", project, "--import", kern, "--signers", allowed});
+        };
+        ProgramRun refused = import_with(signers);
+        CHECK(refused.exit_code == 3);
+        CHECK_THAT(refused.err, Contains("kern.json is not signed"));
+        sign(kern, key);
+        refused = import_with(others);
+        CHECK(refused.exit_code == 3);
+        CHECK_THAT(refused.err, Contains("its signature does not verify"));
+        CHECK(json_of({"review", project})["files"] == 0);
+        return std::tuple(project, kern, signers, others);
+    });
+    const auto& [project, kern, signers, others] = beginning.again();
+    const std::string& folder = beginning.folder();
+    const std::vector<std::string> entering = {"review", project,     "--import",
+                                               kern,     "--signers", signers};
     WHEN("they are entered with their signature") {
-        CHECK_THAT(import_with(signers).out,
-                   Contains("A. Kern (signed by kern@clinic.example): accept"));
+        CHECK_THAT(run(entering).out, Contains("A. Kern (signed by kern@clinic.example): accept"));
         CHECK_THAT(run({"review", project}).out, Contains("A. Kern (signed, not verified)"));
         CHECK_THAT(run({"audit", project}).out, Contains("signed, not verified"));
         const ProgramRun good = run({"audit", project, "--signers", signers});
@@ -185,9 +202,7 @@ SCENARIO("Signed verdicts are verified against allowed signers",
         CHECK(run({"audit", project, "--signers", folder + "/none"}).exit_code == 3);
     }
     WHEN("there is no ssh-keygen, it is named, and nothing is entered") {
-        const ProgramRun without =
-            run_program(program_path(), {"review", project, "--import", kern, "--signers", signers},
-                        "PATH=/nowhere");
+        const ProgramRun without = run_program(program_path(), entering, "PATH=/nowhere");
         CHECK(without.exit_code == 3);
         CHECK_THAT(without.err, Contains("ssh-keygen") && Contains("openssh-client"));
         CHECK(json_of({"review", project})["files"] == 0);
@@ -196,12 +211,16 @@ SCENARIO("Signed verdicts are verified against allowed signers",
 
 SCENARIO("A recipe can require that reviewers have accepted the model",
          "[workbench][command-line][review][prepare]") {
-    const std::string folder = temporary_folder(), out = folder + "/out";
-    write_surface(closed_tube(2.0, 20.0, 24, 40), folder + "/tube.vtp");
-    write_file(folder + "/gated.json", R"([{"operation": "repair"}, {"require": "accepted"}])");
-    std::vector<std::string> prepare = {"prepare",  folder + "/tube.vtp",   "--for", "planning",
-                                        "--recipe", folder + "/gated.json", "--out", out};
-    const ProgramRun first = run(prepare);
+    static const Beginning beginning([](const std::string& folder) {
+        write_surface(closed_tube(2.0, 20.0, 24, 40), folder + "/tube.vtp");
+        write_file(folder + "/gated.json", R"([{"operation": "repair"}, {"require": "accepted"}])");
+        const std::vector<std::string> command = {
+            "prepare",  folder + "/tube.vtp",   "--for", "planning",
+            "--recipe", folder + "/gated.json", "--out", folder + "/out"};
+        return std::pair(command, run(command));
+    });
+    auto [prepare, first] = beginning.again();
+    const std::string folder = beginning.folder(), out = folder + "/out";
     CHECK(first.exit_code == 1);
     CHECK_THAT(first.err, Contains("1 load-surface (open), 2 repair (open)"));
     CHECK(std::filesystem::exists(out + "/project.vbench"));
