@@ -41,7 +41,7 @@ CASES = [
     ("aortofemoral (cm)", "surfaces/sv_demo_aortofemoral.vtp", ["--units", "cm"], ("cfd", "rp"), True),
     ("aortofemoral rom (cm)", "surfaces/sv_rom_model_surface.vtp", ["--units", "cm"], ("cfd", "rp"), True),
     ("aortic arch (cm)", "surfaces/gmsh_aorta2_open.stl", ["--units", "cm"], ("cfd", "rp"), True),
-    ("small aneurysm (m)", "surfaces/vasp_small_aneurysm_fluidboundary.vtp", [], ("cfd", "rp"), True),
+    ("small aneurysm (m)", "surfaces/vasp_small_aneurysm_fluidboundary.vtp", ["--close", "1"], ("cfd", "rp"), True),
     ("aorta level set", "images/vmtk_aorta_final_levelset.mha", [], ("cfd", "rp"), True),
     ("aorta MRA, masked", "images/vmtk_aorta.mha",
      ["--mask", "images/vmtk_aorta_final_levelset.mha", "--set", "load-image.mask_iso=0",

@@ -283,7 +283,8 @@ constexpr CatalogueText kTexts[] = {
      "{end}, is {fate} ({why}): its flow would be missing[. The ends found:{ends}][\n{fix} "
      "{advice}][\n{no_way}]"},
     {"end-in-doubt",
-     "it is not certain that {doubts}[. The ends found:{ends}][\n{fix} {advice}][\n{no_way}]"},
+     "it is not certain that {doubts}[. The ends found:{ends}][\n{fix} {advice}][\n{fix2} "
+     "{else}][\n{no_way}]"},
     {"end-not-cut", "{why}\n{fix} leaves it closed on purpose"},
     {"end-decided", "{end} at {place}, {diameter_mm} mm wide, was {fate}: {why}"},
     {"small-ends-closed",

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "geometry/vessel/ends/end_odds.h"
+#include "geometry/vessel/ends/inlet_odds.h"
 
 namespace vesselbench {
 
@@ -17,6 +18,11 @@ inline constexpr double kCertain = 4.0;
 /// costs more than a twig that stays closed.
 inline constexpr double kLikely = 2.0;
 
+/// An inlet that is likelier than any other end of a tree by this factor is no doubt [-], unless an
+/// end is wider by kWiderOutlet. Of a vessel without furcations, only the widths count.
+inline constexpr double kInletCertain = 1.5;
+inline constexpr double kWiderOutlet = 1.1;
+
 /// What was measured of a candidate, and what is to become of it.
 struct EndVerdict {
     EndProfile profile;
@@ -25,18 +31,19 @@ struct EndVerdict {
         0.0;  ///< of the inlet's flow: the cube of its vessel's diameter over the inlet's
     bool open = false;
     bool doubtful = false;  ///< it has a share of the flow, and the odds do not decide
+    std::optional<InletCandidate> inlet;  ///< how likely it is the inlet; none: it is none
 };
 
 /// What is to become of all candidates.
 struct EndChoice {
-    std::vector<EndVerdict> ends;           ///< by end
-    std::vector<EndVerdict> stubs;          ///< by blind branch without a line
-    std::optional<std::size_t> inlet;       ///< the end where the blood enters; none: unknown
-    std::vector<std::size_t> other_inlets;  ///< ends that are about as plausible, likeliest first
+    std::vector<EndVerdict> ends;      ///< by end
+    std::vector<EndVerdict> stubs;     ///< by blind branch without a line
+    std::optional<std::size_t> inlet;  ///< the end where the blood enters; none: unknown
+    bool inlet_doubtful = false;       ///< another end may be as likely, or is wider
 };
 
 /// Opens the ends whose odds say so: likelier openings than not, small ones kLikely; at least two
-/// in any case.
+/// in any case. Closed ends beside two that were left open or named stay closed (kFewestCuts).
 /// \param ends as from find_surface_ends
 /// \param stubs of the same lines
 /// \throw Cancelled

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/statistics.h"
@@ -23,6 +24,8 @@ constexpr double kShortestNecked = 0.5;
 /// Lengths, ratios and counts beyond these factors say no more.
 constexpr double kMostRatio = 8.0;
 constexpr double kUsualAcross = 8.0;
+/// Width of a vessel beside an oblique closure's at 50 degrees [-].
+constexpr double kOblique = 0.8;
 constexpr double kMostNeed = 2.0;
 
 /// The widest vessel of the tree, along its course, without one branch.
@@ -42,7 +45,7 @@ void measure_line(const EndScene& scene, const std::vector<double>& courses, std
     const double whole = branch_length(branch);
     const double zone = std::min(furcation_zone_end(graph, index, root), whole);
     profile.length = whole - parents_exit(graph, index, root);
-    if (!profile.rim && !profile.cap) profile.length += graph.nodes[tip].radius;
+    if (profile.kind == EndKind::Blind) profile.length += graph.nodes[tip].radius;
     const double from = std::min(zone, 0.5 * whole);
     std::vector<double> diameters;
     double narrowest = std::numeric_limits<double>::infinity();
@@ -58,8 +61,14 @@ void measure_line(const EndScene& scene, const std::vector<double>& courses, std
     const std::span<const double> all(diameters);
     const double inner = mean(all.first(kSamples / 3));
     profile.taper = inner > 0.0 ? mean(all.last(kSamples / 3)) / inner : 1.0;
+    profile.straight = -1.0;
     for (const std::size_t other : graph.nodes[root].branches)
-        if (other != index) profile.add_other(courses[other]);
+        if (other != index) {
+            profile.add_other(courses[other]);
+            profile.straight = std::max(
+                profile.straight,
+                -direction_from(graph, other, root).dot(direction_from(graph, index, root)));
+        }
     profile.tree = widest_course(courses, index);
     if (profile.parent > 0.0 && profile.length < kLongestNecked * profile.diameter)
         profile.neck = std::max(profile.neck, section_rise(scene.surface, graph, tip));
@@ -107,30 +116,64 @@ void measure_lineless(const CenterlineGraph& graph, const std::vector<double>& c
     for (int side = 0; line && side < 2; ++side) profile.add_other(courses[line->place.branch]);
 }
 
-/// Share of the cubes of the diameters that rims and named caps have: somebody has cut them.
-double visible_share(const Surface& surface, const std::vector<SurfaceEnd>& ends,
-                     const EndProfiles& profiles) {
-    double visible = 0.0, all = 0.0;
+/// Who left two ends open, or named them, has cut the vessels: what is closed beside them was left
+/// closed.
+void add_cuts(const std::vector<SurfaceEnd>& ends, EndProfiles& profiles) {
+    double cut = 0.0, all = 0.0;
+    std::size_t count = 0;
     for (const EndProfile& stub : profiles.stubs) all += std::pow(stub.diameter, 3.0);
     for (std::size_t e = 0; e < ends.size(); ++e) {
-        const double cube = std::pow(profiles.ends[e].diameter, 3.0);
+        const EndProfile& profile = profiles.ends[e];
+        const double cube = std::pow(profile.diameter, 3.0);
         all += cube;
-        const auto& patch = ends[e].patch;
-        if (patch ? surface.patches[*patch].kind != PatchKind::Cut : ends[e].is_visible())
-            visible += cube;
+        if (!profile.is_left_open()) continue;
+        cut += cube;
+        if (ends[e].tip) ++count;
     }
-    return all > 0.0 ? visible / all : 0.0;
+    for (auto* list : {&profiles.ends, &profiles.stubs})
+        for (EndProfile& profile : *list)
+            if (!profile.is_left_open()) {
+                profile.cut_beside = all > 0.0 ? cut / all : 0.0;
+                profile.cuts_beside = count;
+            }
+}
+
+EndKind kind_of(const EndScene& scene, const SurfaceEnd& end) {
+    if (!end.patch) return end.rim.empty() ? EndKind::Blind : EndKind::Rim;
+    if (scene.surface.patches[*end.patch].kind != PatchKind::Cut) return EndKind::Named;
+    return scene.border_cuts ? EndKind::Border : EndKind::Face;
+}
+
+/// Of the circle with the area of an open border, or of a cap [mm]; 0: there is none.
+double closure_width(const Surface& surface, const SurfaceEnd& end) {
+    if (end.patch) return end.closure;
+    Vec3 area = Vec3::Zero();
+    for (std::size_t i = 0; i < end.rim.size(); ++i)
+        area += 0.5 * (surface.points()[end.rim[i]] - end.centre)
+                          .cross(surface.points()[end.rim[(i + 1) % end.rim.size()]] - end.centre);
+    return 2.0 * std::sqrt(area.norm() / std::numbers::pi);
+}
+
+/// The line may end in a corner of an oblique or blunt closure, where it is narrow.
+void measure_closure(const Surface& surface, const SurfaceEnd& end, EndProfile& profile) {
+    profile.closure = closure_width(surface, end);
+    if (end.patch && profile.diameter > 0.0) {
+        profile.cap_share = profile.closure / profile.diameter;
+        profile.cap_rise = wall_rise_deg(surface, *end.patch);
+    }
+    profile.diameter = std::max(profile.diameter, kOblique * profile.closure);
+    profile.widest = std::max(profile.widest, profile.diameter);
 }
 
 EndProfile end_profile(const EndScene& scene, const std::vector<double>& courses,
                        const SurfaceEnd& end) {
     EndProfile profile;
-    profile.rim = !end.rim.empty();
-    profile.cap = end.patch.has_value();
+    profile.kind = kind_of(scene, end);
     if (end.tip)
         measure_line(scene, courses, *end.tip, profile);
     else
         measure_lineless(scene.graph, courses, end, profile);
+    measure_closure(scene.surface, end, profile);
     return profile;
 }
 
@@ -140,6 +183,10 @@ EndProfile stub_profile(const EndScene& scene, const std::vector<double>& course
         .length = stub.length, .diameter = 2.0 * stub.widest, .widest = 2.0 * stub.widest};
     add_others(scene.graph, courses, stub, profile);
     profile.tree = widest_course(courses, courses.size());
+    if (const auto line = nearest_place(scene.graph, stub.root))
+        profile.straight =
+            std::abs(tangent_at(scene.graph.branches[line->place.branch], line->place.abscissa)
+                         .dot((stub.tip - stub.root).stableNormalized()));
     if (profile.length > kShortestNecked * profile.diameter) measure_sections(scene, stub, profile);
     return profile;
 }
@@ -172,25 +219,35 @@ double EndProfile::need() const {
 EndFeatures features_of(const EndProfile& p) {
     const bool branch = p.parent > 0.0;
     // A plane that has cut a vessel shows that it went on there, however short it is.
-    const bool planar = p.rim || p.cap;
+    const auto unless_cut = [cut = p.is_cut()](double value) { return cut ? 0.0 : value; };
+    const auto of_kind = [&](EndKind kind) { return p.kind == kind ? 1.0 : 0.0; };
     const double length = branch ? log_ratio(std::max(p.length, 1e-6 * p.diameter), p.diameter)
                                  : std::log(kMostRatio);
     const double surplus =
         branch ? std::max(0.0, log_ratio(p.diameter, std::cbrt(p.other_flow()))) : 0.0;
+    const double border = of_kind(EndKind::Border), face = of_kind(EndKind::Face);
+    const double share = log_ratio(p.cap_share, 1.0), lean = (90.0 - p.cap_rise) / 90.0;
     return {1.0,
-            planar ? 0.0 : length,
-            planar ? 0.0 : std::max(0.0, -length),
-            planar ? 0.0 : log_ratio(p.neck, 1.0),
+            unless_cut(length),
+            unless_cut(std::max(0.0, -length)),
+            unless_cut(log_ratio(p.neck, 1.0)),
             branch ? log_ratio(p.diameter, p.parent) : 0.0,
-            planar ? 0.0 : surplus,
+            unless_cut(surplus),
             log_ratio(p.diameter, p.tree),
-            planar ? 0.0 : std::clamp(p.need(), -kMostNeed, kMostNeed),
-            planar ? 0.0 : log_ratio(p.widest, p.diameter),
-            planar ? 0.0 : log_ratio(p.taper, 1.0),
+            unless_cut(std::clamp(p.need(), -kMostNeed, kMostNeed)),
+            unless_cut(log_ratio(p.widest, p.diameter)),
+            unless_cut(log_ratio(p.taper, 1.0)),
+            unless_cut(p.straight),
             std::min(0.0, log_ratio(p.across, kUsualAcross)),
-            p.rim ? 1.0 : 0.0,
-            p.cap ? 1.0 : 0.0,
-            p.visible_beside};
+            p.is_left_open() ? 1.0 : 0.0,
+            border,
+            border * share,
+            border * lean,
+            face,
+            face * share,
+            face * lean,
+            p.cut_beside,
+            p.cuts_beside >= kFewestCuts ? 1.0 : 0.0};
 }
 
 EndProfiles profiles_of(const EndScene& scene, const std::vector<SurfaceEnd>& ends,
@@ -208,11 +265,7 @@ EndProfiles profiles_of(const EndScene& scene, const std::vector<SurfaceEnd>& en
     const double element = element_size(scene);
     for (auto* list : {&profiles.ends, &profiles.stubs})
         for (EndProfile& profile : *list) profile.across = profile.diameter / element;
-    if (scene.border_cuts) return profiles;
-    const double visible = visible_share(scene.surface, ends, profiles);
-    for (std::size_t e = 0; e < ends.size(); ++e)
-        if (!ends[e].is_visible()) profiles.ends[e].visible_beside = visible;
-    for (EndProfile& stub : profiles.stubs) stub.visible_beside = visible;
+    if (!scene.border_cuts) add_cuts(ends, profiles);
     return profiles;
 }
 

@@ -17,6 +17,18 @@ namespace vesselbench {
 /// The edges of an image's voxels [mm], a column each.
 using VoxelEdges = Eigen::Matrix3d;
 
+/// Ends that were left open or named, from which on they are taken for all of them.
+inline constexpr std::size_t kFewestCuts = 2;
+
+/// How a candidate for a vessel's end looks.
+enum class EndKind {
+    Blind,   ///< a tip of the lumen, or a branch without a line
+    Rim,     ///< an open border of the surface
+    Named,   ///< a cap with a label of the file
+    Border,  ///< a cap where the image ends
+    Face     ///< a planar face of the wall that `repair` has found
+};
+
 /// What is measured of a candidate for a vessel's end, once. Diameters are those of inscribed
 /// spheres, but for `neck`.
 struct EndProfile {
@@ -29,10 +41,25 @@ struct EndProfile {
     std::vector<double> others;  ///< cubes of the diameters of the other vessels there [mm^3]
     double tree = 0.0;           ///< of the widest other vessel of the tree [mm]
     double across = 0.0;         ///< voxels of the image, or edges of the surface, across it [-]
-    bool rim = false;            ///< an open border of the surface
-    bool cap = false;            ///< a cap with a label
-    /// Of a blind end or a branch without a line: share of the flow through rims and named caps [-]
-    double visible_beside = 0.0;
+    EndKind kind = EndKind::Blind;
+    /// Cosine of the angle by which it turns from the vessel that it continues best [-]: a daughter
+    /// goes on in its parent's direction, a bump or a sac of the wall stands across.
+    double straight = 0.0;
+    double closure = 0.0;    ///< of the circle with its rim's or cap's area [mm]; 0: it has none
+    double cap_share = 1.0;  ///< of a cap: its diameter over its vessel's [-]
+    double cap_rise = 90.0;  ///< of a cap: mean angle of the wall beside it and its plane [deg]
+    /// Of an end that nobody named or left open: share of the flow through rims and named caps [-]
+    double cut_beside = 0.0;
+    /// Of the same: number of these rims and named caps, as far as a line leads to them
+    std::size_t cuts_beside = 0;
+
+    /// Somebody has left it open, or named it.
+    [[nodiscard]] bool is_left_open() const {
+        return kind == EndKind::Rim || kind == EndKind::Named;
+    }
+
+    /// Somebody, or the image's border, has cut a vessel there.
+    [[nodiscard]] bool is_cut() const { return is_left_open() || kind == EndKind::Border; }
 
     /// Another vessel at its furcation. \param course its diameter [mm]
     void add_other(double course) {
@@ -51,9 +78,11 @@ struct EndProfile {
 };
 
 /// Dimensionless, in the order of `kEndFeatures`.
-inline constexpr std::array<std::string_view, 14> kEndFeatures = {
-    "one",  "length",   "short", "neck",   "beside_parent", "surplus", "beside_tree",
-    "need", "widening", "taper", "across", "rim",           "cap",     "visible_beside"};
+inline constexpr std::array<std::string_view, 21> kEndFeatures = {
+    "one",         "length",     "short",        "neck",        "beside_parent", "surplus",
+    "beside_tree", "need",       "widening",     "taper",       "straight",      "across",
+    "rim",         "border",     "border_share", "border_lean", "face",          "face_share",
+    "face_lean",   "cut_beside", "cuts_beside"};
 
 using EndFeatures = std::array<double, kEndFeatures.size()>;
 

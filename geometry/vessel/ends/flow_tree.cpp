@@ -19,6 +19,9 @@ constexpr int kSamples = 24;
 constexpr double kUsualScatter = 1.0;
 constexpr double kMostScatter = 3.0;
 
+/// A branch's direction is looked at over this many radii of its furcation.
+constexpr double kDirectionReach = 2.0;
+
 double cube(double x) {
     return x * x * x;
 }
@@ -38,6 +41,17 @@ std::vector<double> distances_from(const CenterlineGraph& graph, std::size_t tip
 
 }  // namespace
 
+Vec3 direction_from(const CenterlineGraph& graph, std::size_t branch, std::size_t node) {
+    const double zone = furcation_zone_end(graph, branch, node);
+    const double reach = kDirectionReach * graph.nodes[node].radius;
+    const auto at = [&](double s) {
+        return point_at(graph.branches[branch], place_from_node(graph, branch, node, s).abscissa);
+    };
+    const double whole = branch_length(graph.branches[branch]);
+    const double from = std::min(zone, 0.5 * whole);
+    return (at(std::min(whole, from + reach)) - at(from)).stableNormalized();
+}
+
 std::vector<double> course_diameters(const CenterlineGraph& graph) {
     std::vector<double> diameters;
     for (std::size_t b = 0; b < graph.branches.size(); ++b) {
@@ -54,26 +68,66 @@ std::vector<double> course_diameters(const CenterlineGraph& graph) {
     return diameters;
 }
 
-double root_cost(const CenterlineGraph& graph, const std::vector<double>& diameters,
-                 std::size_t tip) {
-    std::vector<double> lengths;
-    for (const CenterlineBranch& branch : graph.branches) lengths.push_back(branch_length(branch));
-    const std::vector<double> distance = distances_from(graph, tip, lengths);
-    std::vector<double> in(graph.nodes.size(), 0.0), out(graph.nodes.size(), 0.0);
+FlowTree::FlowTree(const CenterlineGraph& graph, std::vector<double> diameters)
+    : graph_(graph), diameters_(std::move(diameters)) {
     for (std::size_t b = 0; b < graph.branches.size(); ++b) {
-        std::size_t near = graph.branches[b].start_node, far = graph.branches[b].end_node;
-        if (!std::isfinite(distance[near]) || near == far) continue;
-        if (distance[far] < distance[near]) std::swap(near, far);
-        out[near] += cube(diameters[b]);
-        in[far] += cube(diameters[b]);
+        const CenterlineBranch& branch = graph.branches[b];
+        lengths_.push_back(branch_length(branch));
+        directions_.emplace_back(direction_from(graph, b, branch.start_node),
+                                 direction_from(graph, b, branch.end_node));
     }
-    double cost = 0.0;
-    for (std::size_t n = 0; n < graph.nodes.size(); ++n) {
-        if (!(in[n] > 0.0 && out[n] > 0.0)) continue;
-        const double scatter = std::min(std::abs(std::log(in[n] / out[n])), kMostScatter);
-        cost += 0.5 * scatter * scatter / (kUsualScatter * kUsualScatter);
+}
+
+std::vector<FlowTree::Way> FlowTree::ways_from(std::size_t tip) const {
+    const std::vector<double> distance = distances_from(graph_, tip, lengths_);
+    std::vector<Way> ways;
+    for (std::size_t b = 0; b < graph_.branches.size(); ++b) {
+        const CenterlineBranch& branch = graph_.branches[b];
+        Way way{.near = branch.start_node,
+                .far = branch.end_node,
+                .flow = cube(diameters_[b]),
+                .from_near = directions_[b].first,
+                .into_far = -directions_[b].second};
+        if (!(way.flow > 0.0) || way.near == way.far || !std::isfinite(distance[way.near]))
+            continue;
+        if (distance[way.far] < distance[way.near]) {
+            std::swap(way.near, way.far);
+            way.from_near = directions_[b].second;
+            way.into_far = -directions_[b].first;
+        }
+        ways.push_back(way);
     }
-    return cost;
+    return ways;
+}
+
+RootFigures FlowTree::figures(std::size_t tip) const {
+    struct Furcation {
+        double in = 0.0, out = 0.0;
+        Vec3 inward = Vec3::Zero();
+    };
+
+    std::vector<Furcation> at(graph_.nodes.size());
+    const std::vector<Way> ways = ways_from(tip);
+    for (const Way& way : ways) {
+        at[way.near].out += way.flow;
+        at[way.far].in += way.flow;
+        at[way.far].inward += way.flow * way.into_far;
+    }
+    RootFigures figures;
+    for (const Furcation& f : at) {
+        if (!(f.in > 0.0 && f.out > 0.0)) continue;
+        const double scatter = std::min(std::abs(std::log(f.in / f.out)), kMostScatter);
+        figures.murray += 0.5 * scatter * scatter / (kUsualScatter * kUsualScatter);
+    }
+    double behind = 0.0;
+    for (const Way& way : ways) {
+        const Furcation& f = at[way.near];
+        if (!(f.in > 0.0)) continue;
+        figures.turn += way.flow * (1.0 - f.inward.stableNormalized().dot(way.from_near));
+        behind += way.flow;
+    }
+    if (behind > 0.0) figures.turn /= behind;
+    return figures;
 }
 
 }  // namespace vesselbench

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "geometry/vessel/centerlines/centerline_graph.h"
@@ -11,13 +12,45 @@ namespace vesselbench {
 /// the vessel's along its course, not that of its end.
 [[nodiscard]] std::vector<double> course_diameters(const CenterlineGraph& graph);
 
-/// How little a tree looks as if its blood entered at a tip [-], 0: perfectly so. Blood leaves the
-/// tip along the shortest ways; at each furcation, the sums of cubes of the vessels before and
-/// behind it are equal by Murray's law, and the squared logarithm of their ratio counts.
-/// Source: Murray, "The physiological principle of minimum work", PNAS 12, 1926.
-/// \param diameters of the branches (course_diameters) [mm]; 0: no blood flows there
-/// \param tip node of the graph
-[[nodiscard]] double root_cost(const CenterlineGraph& graph, const std::vector<double>& diameters,
-                               std::size_t tip);
+/// Direction of a branch away from one of its nodes, outside the furcation there; of length 1.
+[[nodiscard]] Vec3 direction_from(const CenterlineGraph& graph, std::size_t branch,
+                                  std::size_t node);
+
+/// How a tree looks if its blood enters at a tip, and leaves it along the shortest ways.
+struct RootFigures {
+    /// Distance from Murray's law [-], 0: none. At each furcation, the sums of cubes of the vessels
+    /// before and behind it are equal, and the squared logarithm of their ratio counts.
+    /// Source: Murray, "The physiological principle of minimum work", PNAS 12, 1926.
+    double murray = 0.0;
+    /// How sharply the blood turns into the vessels behind the furcations [-], 0: straight on, 2:
+    /// back; the mean of 1 - cos of the angles, each by the cube of its vessel's diameter.
+    double turn = 0.0;
+};
+
+/// A tree whose root is looked for.
+class FlowTree {
+public:
+    /// Keeps a reference to the graph.
+    /// \param diameters of the branches (course_diameters) [mm]; 0: no blood flows there
+    FlowTree(const CenterlineGraph& graph, std::vector<double> diameters);
+
+    /// \param tip node of the graph
+    [[nodiscard]] RootFigures figures(std::size_t tip) const;
+
+private:
+    /// A branch where blood flows, as it flows from a tip.
+    struct Way {
+        std::size_t near = 0, far = 0;  ///< nodes
+        double flow = 0.0;              ///< the cube of the diameter [mm^3]
+        Vec3 from_near = Vec3::Zero();  ///< direction of the branch out of this furcation
+        Vec3 into_far = Vec3::Zero();   ///< and into this one
+    };
+
+    [[nodiscard]] std::vector<Way> ways_from(std::size_t tip) const;
+
+    const CenterlineGraph& graph_;
+    std::vector<double> diameters_, lengths_;        ///< by branch [mm]
+    std::vector<std::pair<Vec3, Vec3>> directions_;  ///< by branch: out of its start and end node
+};
 
 }  // namespace vesselbench

@@ -8,6 +8,7 @@
 
 #include "geometry/kernel/edges.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/triangle_neighbours.h"
 
 namespace vesselbench {
 
@@ -39,6 +40,28 @@ PatchShape patch_shape(const Surface& surface, std::size_t patch) {
                 std::max(shape.flatness, std::abs(shape.plane.distance(surface.points()[v])));
     });
     return shape;
+}
+
+double wall_rise_deg(const Surface& surface, std::size_t patch) {
+    const Vec3 normal = patch_shape(surface, patch).plane.normal;
+    const auto triangles = surface.triangles();
+    const auto neighbours = edge_neighbours(triangles);
+    double sum = 0.0, length = 0.0;
+    for (TriangleId t = 0; t < triangles.size(); ++t) {
+        if ((*surface.patch_labels)[t] != patch) continue;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const TriangleId beside = neighbours[t][k];
+            if (beside == kNoTriangle || (*surface.patch_labels)[beside] == patch) continue;
+            const Vec3 wall = area_normal(surface.points(), triangles[beside]);
+            if (!(wall.norm() > 0.0)) continue;
+            const double edge =
+                (surface.points()[triangles[t][(k + 1) % 3]] - surface.points()[triangles[t][k]])
+                    .norm();
+            sum += edge * std::acos(std::clamp(wall.dot(normal) / wall.norm(), -1.0, 1.0));
+            length += edge;
+        }
+    }
+    return length > 0.0 ? sum / length * 180.0 / std::numbers::pi : 0.0;
 }
 
 Surface part_near(const Surface& surface, const Vec3& centre, double radius) {

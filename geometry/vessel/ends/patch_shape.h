@@ -18,6 +18,11 @@ struct PatchShape {
 /// \throw InvalidInput if the surface has no such patch, or it has no triangles
 [[nodiscard]] PatchShape patch_shape(const Surface& surface, std::size_t patch);
 
+/// Mean angle between the wall along a patch's border and the patch's mean plane [deg], by length:
+/// 90 for a cap perpendicular to a tube, little for a flat place of a dome.
+/// \throw InvalidInput if the surface has no such patch
+[[nodiscard]] double wall_rise_deg(const Surface& surface, std::size_t patch);
+
 /// The triangles with a corner within a distance of a point, as a separate surface: measuring on it
 /// is fast.
 [[nodiscard]] Surface part_near(const Surface& surface, const Vec3& centre, double radius);

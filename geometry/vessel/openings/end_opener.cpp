@@ -84,7 +84,7 @@ bool EndOpener::cut(std::size_t e) {
     const auto place = place_along_rim(draft_, e);
     if (place && is_free(*place, e)) return make_cut(e, *place, "cut along its rim: " + why);
     draft_.record(e).why = why;
-    return keep_oblique(e);
+    return keep_bent(e) || keep_oblique(e);
 }
 
 bool EndOpener::is_stub(std::size_t e) const {
@@ -137,6 +137,16 @@ bool EndOpener::cut_elsewhere(std::size_t e) {
             return make_cut(e, *place, "cut across its furcation: " + why);
     draft_.record(e).why = why;
     return false;
+}
+
+/// The last resort at an open rim: a vessel ends there, though no cut behind it is whole.
+bool EndOpener::keep_bent(std::size_t e) {
+    const auto place = bent_rim_place(draft_, e);
+    if (!place || has_failed(draft_, e, place->plane.point)) return false;
+    draft_.open(e, *place, OpeningWay::CapRim,
+                "its rim was bent into a plane and capped: " + draft_.record(e).why);
+    trials_.protect(draft_.ends()[e]);
+    return true;
 }
 
 /// The last resort at an image's border: a vessel ends there, even if its furcation is so near

@@ -29,6 +29,7 @@ public:
 private:
     bool cut_across(std::size_t e);
     bool cut_elsewhere(std::size_t e);
+    bool keep_bent(std::size_t e);
     bool keep_oblique(std::size_t e);
     [[nodiscard]] bool is_free(const OpeningPlace& place, std::size_t e);
     bool make_cut(std::size_t e, const OpeningPlace& place, const std::string& why,

@@ -46,6 +46,7 @@ struct FlowProblem {
     std::map<std::string, std::string> words;
     std::vector<EndRecord> ends;  ///< the largest share first
     bool doubts = false;          ///< nothing is wrong if the likelier choice is right
+    int inlet = 0;                ///< number of the inlet where that is in doubt; 0: it is not
 };
 
 bool has_opening(const EndRecord& end) {
@@ -85,6 +86,29 @@ std::string numbered(const EndRecord& end) {
            formatted(100.0 * end.share(), "%.3g %% of the flow");
 }
 
+/// The end that is the inlet, and the likeliest of the others; null: there is none.
+std::pair<const EndRecord*, const EndRecord*> inlet_and_rival(const OpeningPlan& plan) {
+    const EndRecord *inlet = nullptr, *rival = nullptr;
+    for (const EndRecord& end : plan.ends) {
+        if (!end.verdict || !end.verdict->inlet || !end.opening) continue;
+        if (std::ranges::count(plan.inlets, *end.opening) > 0)
+            inlet = &end;
+        else if (!rival || end.verdict->inlet->odds > rival->verdict->inlet->odds)
+            rival = &end;
+    }
+    return {inlet, rival};
+}
+
+std::string inlet_doubt_text(const EndRecord& inlet, const EndRecord& rival) {
+    const auto likely = [](const EndRecord& end) {
+        return formatted(100.0 * end.verdict->inlet->odds, "%.0f %% likely");
+    };
+    return "the blood enters at end " + std::to_string(inlet.number) + " at " +
+           place_text(inlet.place) + " (" + likely(inlet) + "), rather than at end " +
+           std::to_string(rival.number) + " at " + place_text(rival.place) + " (" + likely(rival) +
+           ")";
+}
+
 std::string doubt_text(const EndRecord& end) {
     return numbered(end) + ", is " + (has_opening(end) ? "an opening" : "none") + " (" +
            formatted(100.0 * end.verdict->odds.opening, "%.0f %% likely)");
@@ -115,13 +139,17 @@ FlowProblem flow_problem(const OpeningPlan& plan, bool accept_doubts) {
     }
     if (accept_doubts) return problem;
     collect([&](const EndRecord& end) { return is_doubtful(plan, end); });
-    if (problem.ends.empty()) return problem;
+    std::vector<std::string> doubts;
+    for (const EndRecord& end : problem.ends) doubts.push_back(doubt_text(end));
+    if (const auto [inlet, rival] = inlet_and_rival(plan); plan.inlet_doubtful && inlet && rival) {
+        problem.inlet = inlet->number;
+        doubts.push_back(inlet_doubt_text(*inlet, *rival));
+        if (problem.ends.empty()) problem.ends = {*inlet};
+    }
+    if (doubts.empty()) return problem;
     problem.doubts = true;
     problem.code = "end-in-doubt";
-    for (const EndRecord& end : problem.ends) {
-        std::string& all = problem.words["doubts"];
-        all += (all.empty() ? "" : ", and that ") + doubt_text(end);
-    }
+    problem.words["doubts"] = joined(doubts, ", and that ");
     return problem;
 }
 
@@ -133,31 +161,45 @@ std::string points_text(const Positions& points) {
 
 /// A remedy and what it does.
 struct Advice {
-    std::string argument, value, effect;  ///< of clip-opening; empty: there is none
-    std::string distance = {};            ///< with the argument tip
+    std::map<std::string, std::string> arguments;  ///< of clip-opening; empty: there is none
+    std::string effect;
+    bool before = false;  ///< an edit of its own
 
     [[nodiscard]] std::vector<Remedy> remedies() const {
-        if (argument.empty()) return {};
-        Remedy remedy{.operation = "clip-opening", .arguments = {{argument, value}}};
-        if (distance.empty()) return {remedy};
-        remedy.arguments["distance"] = distance;
-        remedy.before = true;
-        return {remedy};
+        if (arguments.empty()) return {};
+        return {{.operation = "clip-opening", .arguments = arguments, .before = before}};
     }
 };
 
+/// The likelier choice as answers to all doubts at once, by the ends' numbers, so that a wrong one
+/// can be changed. Empty where ends were named already: numbers are those of a plan without names.
+Advice answers(const FlowProblem& problem, const OpeningPlanOptions& options) {
+    if (!options.inlets.empty() || !options.open.empty() || !options.closed.empty()) return {};
+    std::vector<std::string> open, closed;
+    for (const EndRecord& end : problem.ends)
+        if (end.verdict->doubtful)
+            (has_opening(end) ? open : closed).push_back(std::to_string(end.number));
+    Advice advice{.arguments = {},
+                  .effect =
+                      "answers as is likelier: change the numbers that are "
+                      "wrong"};
+    if (problem.inlet > 0) advice.arguments["inlet_ends"] = std::to_string(problem.inlet);
+    if (!open.empty()) advice.arguments["open_ends"] = joined(open, ",");
+    if (!closed.empty()) advice.arguments["close_ends"] = joined(closed, ",");
+    return advice;
+}
+
 Advice closing(const Positions& closed) {
-    return {"closed", points_text(closed),
+    return {{{"closed", points_text(closed)}},
             closed.size() == 1 ? "leaves it closed on purpose" : "leaves them closed on purpose"};
 }
 
 /// One for each end; the first one has the text about all of them.
 std::vector<Diagnostic> diagnostics_of(const OpeningPlan& plan, const FlowProblem& problem,
-                                       const Advice& advice) {
-    Diagnostic whole{.code = problem.code,
-                     .operation = "clip-opening",
-                     .words = problem.words,
-                     .remedies = advice.remedies()};
+                                       const std::vector<Advice>& ways) {
+    Diagnostic whole{.code = problem.code, .operation = "clip-opening", .words = problem.words};
+    for (const Advice& way : ways)
+        for (Remedy& remedy : way.remedies()) whole.remedies.push_back(std::move(remedy));
     std::vector<Diagnostic> diagnostics;
     for (const EndRecord& end : problem.ends) {
         Diagnostic& one = diagnostics.emplace_back(whole);
@@ -166,7 +208,7 @@ std::vector<Diagnostic> diagnostics_of(const OpeningPlan& plan, const FlowProble
                        {"diameter_mm", end.diameter},
                        {"flow_share", end.share()},
                        {"opening", end.verdict ? end.verdict->odds.opening : 0.0}};
-        if (problem.doubts) one.words["doubts"] = doubt_text(end);
+        if (problem.doubts && end.verdict->doubtful) one.words["doubts"] = doubt_text(end);
     }
     if (diagnostics.empty()) diagnostics.push_back(whole);
     diagnostics[0].words = problem.words;
@@ -174,7 +216,8 @@ std::vector<Diagnostic> diagnostics_of(const OpeningPlan& plan, const FlowProble
     if (whole.remedies.empty())
         diagnostics[0].words["no_way"] = "none of these ends can be opened";
     else
-        diagnostics[0].words["advice"] = advice.effect;
+        diagnostics[0].words["advice"] = ways.front().effect;
+    if (ways.size() > 1) diagnostics[0].words["else"] = ways.back().effect;
     return diagnostics;
 }
 
@@ -191,9 +234,9 @@ public:
 
     [[nodiscard]] Advice advice(std::size_t openings) const {
         Advice found = by_opening();
-        if (found.argument.empty() && (openings == 1 || problem_.ends.size() == 1))
+        if (found.arguments.empty() && (openings == 1 || problem_.ends.size() == 1))
             found = by_hand();
-        if (found.argument.empty() && openings >= 2) found = by_closing();
+        if (found.arguments.empty() && openings >= 2) found = by_closing();
         return found;
     }
 
@@ -232,7 +275,7 @@ private:
             options.open.push_back(end.place);
             const Judgement found = judgement(options);
             if (found == Judgement::Good)
-                return {"open", points_text(options.open),
+                return {{{"open", points_text(options.open)}},
                         options.open.size() == 1 ? "opens it" : "opens them"};
             if (found == Judgement::Impossible) options.open.pop_back();
         }
@@ -253,8 +296,10 @@ private:
                     return !has_failed(at) && trials.problem_of(at, *e).empty();
                 });
             if (!place) continue;
-            return {"tip", coordinates_argument(place->tip), "cuts it there",
-                    formatted(place->distance)};
+            return {{{"tip", coordinates_argument(place->tip)},
+                     {"distance", formatted(place->distance)}},
+                    "cuts it there",
+                    true};
         }
         return {};
     }
@@ -297,13 +342,17 @@ void check_flow(const OpeningPlan& plan, const Surface& surface, const Centerlin
                 const OpeningPlanOptions& options, const Progress& progress) {
     const FlowProblem problem = flow_problem(plan, options.accept_doubts);
     if (problem.code.empty()) return;
-    Advice advice{"accept_doubts", "true", "continues with the likelier choice"};
-    if (!problem.doubts) {
+    std::vector<Advice> ways;
+    if (problem.doubts) {
+        ways = {answers(problem, options),
+                {{{"accept_doubts", "true"}}, "continues with the likelier choice"}};
+        std::erase_if(ways, [](const Advice& advice) { return advice.arguments.empty(); });
+    } else {
         progress.report(0.0, "finding a remedy");
-        advice =
-            WayOn(surface, graph, options, problem, progress.silent()).advice(plan.openings.size());
+        ways = {WayOn(surface, graph, options, problem, progress.silent())
+                    .advice(plan.openings.size())};
     }
-    throw DiagnosedFailure(diagnostics_of(plan, problem, advice));
+    throw DiagnosedFailure(diagnostics_of(plan, problem, ways));
 }
 
 Remedy closing_remedy(const Positions& closed) {

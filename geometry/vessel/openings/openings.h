@@ -73,7 +73,7 @@ struct OpeningPlan {
     std::vector<EndRecord> ends;       ///< every end found, worst first
     std::vector<Diagnostic> warnings;  ///< about the places of openings: bends, doubtful axes
     std::vector<std::size_t> inlets;   ///< the openings that are inlets; empty: chosen by width
-    std::vector<std::size_t> other_inlets;  ///< ends that may be the inlet as well, by record
+    bool inlet_doubtful = false;       ///< another end may be the inlet as well
 };
 
 /// A place where a cut was tried without success.

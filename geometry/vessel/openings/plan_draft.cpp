@@ -70,7 +70,10 @@ PlanDraft::PlanDraft(const Surface& surface, const LinesWithoutFrays& lines,
                           ends_, stubs, progress);
     for (std::size_t e = 0; e < ends_.size(); ++e) {
         grazes_.push_back(records_[e].border && is_grazed(surface, lines.graph, ends_[e]));
-        if (grazes_[e]) choice_.ends[e].open = choice_.ends[e].doubtful = false;
+        if (grazes_[e]) {  // no vessel ends there, however wide the cap is
+            choice_.ends[e].open = choice_.ends[e].doubtful = false;
+            choice_.ends[e].share = 0.0;
+        }
         records_[e].verdict = choice_.ends[e];
     }
     for (std::size_t s = 0; s < stubs.size(); ++s)
@@ -177,11 +180,30 @@ OpeningPlan PlanDraft::finished() {
     return std::move(plan_);
 }
 
+/// An opening that is about as likely the inlet as `inlet`, or wider. Of two openings only the
+/// widths count.
+bool PlanDraft::has_rival(std::size_t inlet) const {
+    const std::ptrdiff_t openings =
+        std::ranges::count_if(made_, [](const auto& made) { return made.has_value(); });
+    const InletCandidate& best = *choice_.ends[inlet].inlet;
+    for (std::size_t e = 0; e < made_.size(); ++e) {
+        const auto& other = choice_.ends[e].inlet;
+        if (e == inlet || !made_[e] || !other) continue;
+        if (other->width > kWiderOutlet * best.width ||
+            (openings > 2 && other->odds * kInletCertain > best.odds))
+            return true;
+    }
+    return false;
+}
+
 /// Those that were named; else the likeliest, unless the surface names one.
 void PlanDraft::choose_inlet() {
     const bool named = std::ranges::count(surface_.patches, PatchKind::Inlet, &Patch::kind) > 0;
-    if (inlets_.empty() && !named && choice_.inlet && made_[*choice_.inlet])
+    if (inlets_.empty() && !named && choice_.inlet && made_[*choice_.inlet]) {
         inlets_.push_back(*choice_.inlet);
+        // A rival that an image's border grazes, or that could not be cut, is none.
+        plan_.inlet_doubtful = choice_.inlet_doubtful && has_rival(*choice_.inlet);
+    }
     for (const std::size_t e : inlets_)
         if (made_[e]) plan_.inlets.push_back(*records_[e].opening);
 }

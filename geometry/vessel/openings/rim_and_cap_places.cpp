@@ -19,6 +19,9 @@ constexpr double kStrictFlatness = 1e-5;
 constexpr double kLeastRiseAtTip = 30.0;
 /// A rim is cut off along its own plane if it is no farther from it than this [diameters].
 constexpr double kMostTorn = 0.5;
+/// A rim without a whole section behind it is bent into its plane if it is no farther from it than
+/// this [diameters]: more would fold the wall beside it.
+constexpr double kMostBent = 0.3;
 /// That cut lies behind the rim's deepest notch by this much [diameters].
 constexpr double kBehindRim = 0.02;
 
@@ -118,6 +121,15 @@ std::optional<OpeningPlace> place_along_rim(const PlanDraft& draft, std::size_t 
         axis_inward(part_near(surface, plane.point, 2.5 * rim.diameter()), plane, rim.diameter()));
     place.distance = depth;
     return place;
+}
+
+std::optional<OpeningPlace> bent_rim_place(const PlanDraft& draft, std::size_t e) {
+    const SurfaceEnd& end = draft.ends()[e];
+    if (end.rim.empty()) return std::nullopt;
+    const RimShape rim = rim_shape(draft.surface(), end.rim);
+    if (rim.rise_deg <= kLeastRiseDeg || rim.flatness > kMostBent * rim.diameter())
+        return std::nullopt;
+    return place_on(rim.plane, rim.diameter(), draft.tip_place(e), std::nullopt);
 }
 
 }  // namespace vesselbench

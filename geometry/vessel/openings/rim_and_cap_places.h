@@ -24,4 +24,8 @@ namespace vesselbench {
 /// that is hardly a vessel's end.
 [[nodiscard]] std::optional<OpeningPlace> place_along_rim(const PlanDraft& draft, std::size_t e);
 
+/// A rim that can be capped in its own plane where nothing behind it can be cut, as where two rims
+/// lie at one furcation; empty: it is too far from a plane, or no vessel's end.
+[[nodiscard]] std::optional<OpeningPlace> bent_rim_place(const PlanDraft& draft, std::size_t e);
+
 }  // namespace vesselbench

@@ -55,7 +55,15 @@ ordered_json verdict_json(const EndRecord& end) {
     const EndFeatures values = features_of(v.profile);
     for (std::size_t f = 0; f < values.size(); ++f)
         features[std::string(kEndFeatures[f])] = values[f];
-    return {{"opening", v.odds.opening},
+    ordered_json inlet = nullptr;
+    if (v.inlet) {
+        inlet = {{"odds", v.inlet->odds}, {"features", ordered_json::object()}};
+        for (std::size_t f = 0; f < kInletFeatures.size(); ++f)
+            inlet["features"][std::string(kInletFeatures[f])] = v.inlet->features[f];
+    }
+    return {{"inlet", inlet},
+            {"vessel_mm", v.profile.diameter},
+            {"opening", v.odds.opening},
             {"sac", v.odds.sac},
             {"bump", v.odds.bump},
             {"doubtful", v.doubtful},

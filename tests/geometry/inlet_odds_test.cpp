@@ -1,0 +1,179 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <catch2/catch.hpp>
+
+#include "geometry/kernel/edges.h"
+#include "geometry/kernel/surface.h"
+#include "geometry/phantoms/exact_surface.h"
+#include "geometry/phantoms/field.h"
+#include "geometry/phantoms/phantom.h"
+#include "geometry/vessel/centerlines/branch_queries.h"
+#include "geometry/vessel/centerlines/centerlines.h"
+#include "geometry/vessel/ends/end_choice.h"
+#include "geometry/vessel/ends/flow_tree.h"
+#include "geometry/vessel/ends/patch_shape.h"
+#include "geometry/vessel/openings/flow_check.h"
+#include "geometry/vessel/openings/openings.h"
+#include "tests/support/shapes.h"
+
+using namespace vesselbench;
+using namespace vesselbench::test;
+using Catch::Matchers::Contains;
+
+namespace {
+
+constexpr double kTrunk = 2.0;
+constexpr double kDegree = 0.017453292519943295;
+
+/// A trunk along z that parts at the origin into two daughters, by the radii of the two [mm]. All
+/// ends are open.
+Surface fork(double left, double right, double scale = 1.0) {
+    const auto vessel = [&](const Vec3& to, double from, double radius) {
+        return VesselShape{.points = {Vec3::Zero(), scale * to},
+                           .radii = {scale * from, scale * radius},
+                           .flat_ends = true};
+    };
+    const std::vector<PhantomPart> parts = {
+        {.name = "trunk", .shape = vessel(Vec3(0, 0, -20), kTrunk, kTrunk)},
+        {.name = "left", .shape = vessel(Vec3(-10, 0, 17), left, left), .blend = 0.3 * scale},
+        {.name = "right", .shape = vessel(Vec3(10, 0, 17), right, right), .blend = 0.3 * scale}};
+    const PhantomField field(parts);
+    const Surface closed = exact_surface(field, field.bounds(), 0.35 * scale);
+    std::vector<bool> keep;
+    for (const Triangle& t : closed.triangles()) {
+        const Vec3 middle =
+            (closed.points()[t[0]] + closed.points()[t[1]] + closed.points()[t[2]]) / 3.0;
+        keep.push_back(std::abs(middle.z()) < (middle.z() < 0.0 ? 18.0 : 14.0) * scale);
+    }
+    return select_triangles(closed, keep);
+}
+
+const SurfaceEnd& lowest(const std::vector<SurfaceEnd>& ends) {
+    return *std::ranges::min_element(ends, {}, [](const SurfaceEnd& e) { return e.centre.z(); });
+}
+
+}  // namespace
+
+SCENARIO("A tree that obeys Murray's law shows its root", "[geometry][ends]") {
+    const double daughter = kTrunk / std::cbrt(2.0);
+    const Surface surface = fork(daughter, daughter);
+    const auto graph = centerlines_of(surface);
+    const std::vector<SurfaceEnd> ends = find_surface_ends(surface, *graph);
+    REQUIRE(ends.size() == 3);
+    const FlowTree tree(*graph, course_diameters(*graph));
+    const RootFigures root = tree.figures(*lowest(ends).tip);
+    CHECK(root.murray < 0.05);
+    CHECK(root.turn < 0.3);
+    for (const SurfaceEnd& end : ends) {
+        if (end.tip == lowest(ends).tip) continue;
+        const RootFigures wrong = tree.figures(*end.tip);
+        CHECK(wrong.murray > 3.0 * root.murray);
+        CHECK(wrong.turn > 2.0 * root.turn);
+    }
+}
+
+SCENARIO("The inlet's odds are of all ends, and know no unit", "[geometry][ends]") {
+    const auto chosen = [](const Surface& surface) {
+        const auto graph = centerlines_of(surface);
+        return choose_ends({.surface = surface, .graph = *graph},
+                           find_surface_ends(surface, *graph), {});
+    };
+    const Surface surface = fork(1.4, 1.1);
+    const EndChoice choice = chosen(surface);
+    REQUIRE(choice.inlet);
+    double sum = 0.0, most = 0.0;
+    for (const EndVerdict& verdict : choice.ends) {
+        REQUIRE(verdict.inlet);
+        sum += verdict.inlet->odds;
+        most = std::max(most, verdict.inlet->odds);
+    }
+    CHECK(sum == Approx(1.0));
+    CHECK(choice.ends[*choice.inlet].inlet->odds == most);
+    const auto graph = centerlines_of(surface);
+    CHECK(find_surface_ends(surface, *graph)[*choice.inlet].centre.z() < 0.0);
+    CHECK_FALSE(choice.inlet_doubtful);
+}
+
+SCENARIO("An outlet that is wider than the inlet is asked about, and the answer is one argument",
+         "[geometry][ends]") {
+    GIVEN("a tube whose ends are alike") {
+        const Surface tube = open_tube(kTrunk, 30.0, 40, 60);
+        const auto graph = centerlines_of(tube);
+        const OpeningPlan plan = plan_openings(tube, *graph);
+        CHECK_FALSE(plan.inlet_doubtful);
+        const OpeningPlan named = plan_openings(tube, *graph, {.inlets = {Vec3(0, 0, 30)}});
+        REQUIRE(named.inlets.size() == 1);
+        CHECK(named.openings[named.inlets[0]].place.plane.point.z() == Approx(30.0).margin(0.5));
+    }
+    GIVEN("a choice whose likeliest inlet is not the widest end") {
+        const EndVerdict narrow{.odds = {0.99, 0.0, 0.01},
+                                .share = 1.0,
+                                .inlet = InletCandidate{.end = 0, .width = 2.0, .odds = 0.6}};
+        EndVerdict wide = narrow;
+        wide.inlet = InletCandidate{.end = 1, .width = 3.0, .odds = 0.4};
+        OpeningPlan plan{
+            .openings = {{}, {}},
+            .ends = {{.fate = EndFate::Kept, .verdict = narrow, .number = 1, .opening = 0},
+                     {.fate = EndFate::Kept, .verdict = wide, .number = 2, .opening = 1}},
+            .inlets = {0}};
+        CHECK(why_no_flow(plan).empty());
+        plan.inlet_doubtful = true;
+        CHECK_THAT(why_no_flow(plan),
+                   Contains("the blood enters at end 1") && Contains("rather than at end 2"));
+        CHECK(why_no_flow(plan, true).empty());
+    }
+}
+
+SCENARIO("What is closed beside two open rims is opened only where somebody asks",
+         "[geometry][ends]") {
+    const auto vessel = [](const Vec3& from, const Vec3& to, double radius, bool flat) {
+        return VesselShape{.points = {from, to}, .radii = {radius, radius}, .flat_ends = flat};
+    };
+    const std::vector<PhantomPart> parts = {
+        {.name = "vessel", .shape = vessel(Vec3(0, 0, -17), Vec3(0, 0, 17), 1.8, true)},
+        {.name = "branch",
+         .shape = vessel(Vec3::Zero(), Vec3(14, 0, 3), 1.3, false),
+         .blend = 0.2}};
+    const PhantomField field(parts);
+    const Surface closed = exact_surface(field, field.bounds(), 0.35);
+    std::vector<bool> keep;
+    for (const Triangle& t : closed.triangles())
+        keep.push_back(std::abs(closed.points()[t[0]].z()) < 15.0);
+    const Surface open = select_triangles(closed, keep);
+    const auto graph = centerlines_of(open);
+    const OpeningPlan plan = plan_openings(open, *graph);
+    const Vec3 tip(15, 0, 3.2);
+    const auto at_tip = [&](const OpeningPlan& of) {
+        return *std::ranges::min_element(
+            of.ends, {}, [&](const EndRecord& end) { return (end.place - tip).norm(); });
+    };
+    CHECK(plan.openings.size() == 2);
+    CHECK(at_tip(plan).fate == EndFate::Closed);
+    CHECK(at_tip(plan).verdict->profile.cuts_beside == 2);
+    CHECK(plan_openings(open, *graph, {.open = {tip}}).openings.size() == 3);
+}
+
+SCENARIO("The wall rises from a cap across a tube, and leans into a flat place of a dome",
+         "[geometry][ends]") {
+    const auto rise = [](const Surface& surface, const auto& in_patch) {
+        PatchLabels labels(surface.triangle_count(), 0);
+        for (TriangleId t = 0; t < labels.size(); ++t) {
+            const auto& [a, b, c] = surface.triangles()[t];
+            const Vec3 middle =
+                (surface.points()[a] + surface.points()[b] + surface.points()[c]) / 3.0;
+            labels[t] = in_patch(middle) ? 1 : 0;
+        }
+        return wall_rise_deg(surface.with_patches(std::move(labels), {{"wall", PatchKind::Wall},
+                                                                      {"cap", PatchKind::Cut}}),
+                             1);
+    };
+    const Surface ball = icosphere(1.0, 4);
+    const double half_angle = 20.0;
+    CHECK(rise(ball, [&](const Vec3& p) { return p.z() > std::cos(half_angle * kDegree); }) ==
+          Approx(half_angle).margin(3.0));
+    const Surface tube = closed_tube(2.0, 20.0, 40, 40);
+    CHECK(rise(tube, [](const Vec3& p) { return p.z() > 20.0 - 1e-6; }) ==
+          Approx(90.0).margin(1.0));
+}
