@@ -123,9 +123,7 @@ class Models:
     def __init__(self, cases, ridges):
         some = next(case for case in cases if any(e["odds"]["inlet"] for e in case.ends))
         self.names = {part: names_of(some.ends, part) for part in ("ends", "inlets")}
-        rows = end_rows(cases)
-        self.least, self.most = rows[0].min(axis=0), rows[0].max(axis=0)
-        self.ends = fitted_ends(rows, ridges["ends"])
+        self.ends = fitted_ends(end_rows(cases), ridges["ends"])
         self.inlets = fitted_inlets(inlet_rows(cases), ridges["inlets"])
 
     def end_odds(self, case):

@@ -44,8 +44,7 @@ class Candidates {
 public:
     Candidates(const EndScene& scene, const std::vector<SurfaceEnd>& ends,
                const std::vector<EndProfile>& profiles, const std::vector<double>& opening)
-        : graph_(scene.graph),
-          ends_(ends),
+        : ends_(ends),
           profiles_(profiles),
           opening_(opening),
           tree_(scene.graph, flowing(scene.graph, ends, opening)) {
@@ -88,7 +87,6 @@ public:
     }
 
 private:
-    const CenterlineGraph& graph_;
     const std::vector<SurfaceEnd>& ends_;
     const std::vector<EndProfile>& profiles_;
     const std::vector<double>& opening_;
