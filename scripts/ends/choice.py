@@ -4,7 +4,7 @@ import math
 
 # As in end_choice.h and end_choice.cpp.
 LEAST_SHARE, CERTAIN, LIKELY, FEWEST_CUTS, FEWEST_OPENINGS = 0.05, 4.0, 2.0, 2, 2
-INLET_CERTAIN, WIDER_OUTLET = 1.5, 1.1
+INLET_CERTAIN, WIDER_OUTLET = 1.2, 1.1
 
 
 @dataclasses.dataclass

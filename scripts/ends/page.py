@@ -36,7 +36,8 @@ HEAD = ["", "cases", *KINDS, "of doubts and refusals: the likelier choice is wro
 def anatomy_table(results):
     groups = by(results, lambda case: case.anatomy)
     rows = [row_of(name, group) for name, group in groups.items()]
-    return common.table(["anatomy", *HEAD[1:]], rows + [mean_row("mean of anatomies", list(groups.values()))])
+    rows += [row_of("all", results), mean_row("mean of anatomies", list(groups.values()))]
+    return common.table(["anatomy", *HEAD[1:]], rows)
 
 
 def reliability_table(results):

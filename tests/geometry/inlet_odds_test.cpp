@@ -13,7 +13,6 @@
 #include "geometry/vessel/centerlines/centerlines.h"
 #include "geometry/vessel/ends/end_choice.h"
 #include "geometry/vessel/ends/flow_tree.h"
-#include "geometry/vessel/ends/patch_shape.h"
 #include "geometry/vessel/openings/flow_check.h"
 #include "geometry/vessel/openings/openings.h"
 #include "tests/support/shapes.h"
@@ -25,7 +24,6 @@ using Catch::Matchers::Contains;
 namespace {
 
 constexpr double kTrunk = 2.0;
-constexpr double kDegree = 0.017453292519943295;
 
 /// A trunk along z that parts at the origin into two daughters, by the radii of the two [mm]. All
 /// ends are open.
@@ -93,7 +91,7 @@ SCENARIO("The inlet's odds are of all ends, and know no unit", "[geometry][ends]
     CHECK(choice.ends[*choice.inlet].inlet->odds == most);
     const auto graph = centerlines_of(surface);
     CHECK(find_surface_ends(surface, *graph)[*choice.inlet].centre.z() < 0.0);
-    CHECK_FALSE(choice.inlet_doubtful);
+    CHECK_FALSE(has_rival(choice.ends, *choice.inlet, std::vector(choice.ends.size(), true)));
 }
 
 SCENARIO("An outlet that is wider than the inlet is asked about, and the answer is one argument",
@@ -153,27 +151,4 @@ SCENARIO("What is closed beside two open rims is opened only where somebody asks
     CHECK(at_tip(plan).fate == EndFate::Closed);
     CHECK(at_tip(plan).verdict->profile.cuts_beside == 2);
     CHECK(plan_openings(open, *graph, {.open = {tip}}).openings.size() == 3);
-}
-
-SCENARIO("The wall rises from a cap across a tube, and leans into a flat place of a dome",
-         "[geometry][ends]") {
-    const auto rise = [](const Surface& surface, const auto& in_patch) {
-        PatchLabels labels(surface.triangle_count(), 0);
-        for (TriangleId t = 0; t < labels.size(); ++t) {
-            const auto& [a, b, c] = surface.triangles()[t];
-            const Vec3 middle =
-                (surface.points()[a] + surface.points()[b] + surface.points()[c]) / 3.0;
-            labels[t] = in_patch(middle) ? 1 : 0;
-        }
-        return wall_rise_deg(surface.with_patches(std::move(labels), {{"wall", PatchKind::Wall},
-                                                                      {"cap", PatchKind::Cut}}),
-                             1);
-    };
-    const Surface ball = icosphere(1.0, 4);
-    const double half_angle = 20.0;
-    CHECK(rise(ball, [&](const Vec3& p) { return p.z() > std::cos(half_angle * kDegree); }) ==
-          Approx(half_angle).margin(3.0));
-    const Surface tube = closed_tube(2.0, 20.0, 40, 40);
-    CHECK(rise(tube, [](const Vec3& p) { return p.z() > 20.0 - 1e-6; }) ==
-          Approx(90.0).margin(1.0));
 }

@@ -11,6 +11,7 @@
 #include "geometry/vessel/openings/clip.h"
 #include "geometry/vessel/openings/clip_openings.h"
 #include "geometry/vessel/openings/cut_trial.h"
+#include "geometry/vessel/openings/flat_caps.h"
 #include "geometry/vessel/openings/opening_axis.h"
 #include "geometry/vessel/repair/repair.h"
 #include "tests/support/shapes.h"
@@ -451,7 +452,7 @@ SCENARIO("Ends of real vessels are opened perpendicular and flat", "[geometry][o
     const auto path = shared_data(c.file);
     if (path.empty()) return;
     INFO(c.file);
-    const Surface surface = repair(read_surface(path).surface).surface;
+    const Surface surface = label_flat_faces(repair(read_surface(path).surface).surface);
     const auto lines = compute_centerlines(surface);
     // In a bend, the axis behind the cut depends on the cut.
     check_caps(clipped_by(surface, plan_openings(surface, lines, {.strict = true})), c.openings,

@@ -168,8 +168,8 @@ SCENARIO("A closed end that is toggled is opened", "[window][openings]") {
     CHECK(opened.wish == EndWish::Outlet);
     CHECK(opened.is_changed());
     REQUIRE(opened.cut);
-    CHECK(summary_of(window.ends().rows()) == "6 of 6 ends open, 1 in doubt; changed: 1");
-    WHEN("it is applied, and the doubt about a stub is decided") {
+    CHECK(summary_of(window.ends().rows()) == "6 of 6 ends open; changed: 1");
+    WHEN("it is applied, and a stub with it") {
         window.wish(6, EndWish::Outlet);
         const Surface made = window.apply();
         CHECK(is_opening_near(made, opened.cut->place.plane.point, 1.0));
@@ -178,8 +178,8 @@ SCENARIO("A closed end that is toggled is opened", "[window][openings]") {
     WHEN("it is closed again") {
         window.wish(1, EndWish::Closed);
         CHECK(window.text("open").empty());
-        CHECK(window.text("closed").empty());  // as it is likelier: nothing is decided
         window.settle();
+        CHECK(window.row(1).wish == EndWish::Closed);
         CHECK_FALSE(window.row(1).is_changed());
     }
 }

@@ -28,6 +28,7 @@ constexpr double kThinFraction =
     0.02;  ///< fraction of the wall's area that may be thinner than the grid resolves
 constexpr double kVoxelsPerRadius = 3.5;  ///< of thin vessels
 constexpr double kMostLumen = 1.5e6;      ///< voxels
+constexpr double kMostRefined = 3.0e6;    ///< voxels of a finer grid, tried for false loops
 constexpr double kMostGrid = 4.0e7;       ///< voxels including the empty ones around
 constexpr double kLeastLumen = 3e4;       ///< voxels: finer than thin vessels need, for good lines
 constexpr double kSmallestComponent = 0.01;
@@ -199,6 +200,8 @@ struct Attempt {
     std::vector<Stub> stubs;
     std::size_t components = 0;
     int loops = 0;
+
+    [[nodiscard]] bool is_lost() const { return rough.graph.branches.empty(); }
 };
 
 std::vector<Stub> stubs_among(const LumenGrid& grid, const std::vector<BlindReach>& dropped) {
@@ -264,13 +267,14 @@ Lines find_lines(const Surface& surface, const CenterlineParameters& parameters,
     double spacing = first_spacing(wall, thin);
     Attempt attempt;
     for (int k = 0; k < kAttempts; ++k, spacing /= 1.5) {
+        if (k > 0 && wall.volume > kMostRefined * spacing * spacing * spacing) break;
         const Progress part = progress.part(0.2 * k, 0.2 * (k + 1));
-        attempt = skeletonise(wall, parameters, spacing, part);
-        const bool lost = attempt.rough.graph.branches.empty();
+        Attempt next = skeletonise(wall, parameters, spacing, part);
+        if (attempt.is_lost() || next.loops <= attempt.loops) attempt = std::move(next);
         const bool false_loops = wall.handles >= 0 && attempt.loops > wall.handles;
-        if (!lost && !false_loops) break;
+        if (!attempt.is_lost() && !false_loops) break;
     }
-    if (attempt.rough.graph.branches.empty())
+    if (attempt.is_lost())
         throw DiagnosedFailure({.code = "no-centerline",
                                 .remedies = {{.operation = "repair"}, {.operation = "crop"}}});
     const WallSections sections(wall, 0.5 * thin);

@@ -12,16 +12,7 @@ constexpr std::size_t kFewestOpenings = 2;
 
 void choose_inlet(EndChoice& choice, const std::vector<InletCandidate>& candidates) {
     for (const InletCandidate& candidate : candidates) choice.ends[candidate.end].inlet = candidate;
-    if (candidates.empty()) return;
-    const InletCandidate& best = candidates.front();
-    choice.inlet = best.end;
-    // Without a furcation nothing but the widths tells where the blood enters.
-    const bool furcates = candidates.size() > 2;
-    choice.inlet_doubtful =
-        std::any_of(candidates.begin() + 1, candidates.end(), [&](const InletCandidate& other) {
-            return (furcates && other.odds * kInletCertain > best.odds) ||
-                   other.width > kWiderOutlet * best.width;
-        });
+    if (!candidates.empty()) choice.inlet = candidates.front().end;
 }
 
 void set_shares(EndChoice& choice) {
@@ -91,6 +82,20 @@ EndChoice choose_ends(const EndScene& scene, const std::vector<SurfaceEnd>& ends
         for (EndVerdict& verdict : *list) decide(verdict);
     open_enough(choice);
     return choice;
+}
+
+bool has_rival(const std::vector<EndVerdict>& ends, std::size_t inlet,
+               const std::vector<bool>& opened) {
+    const bool furcates = std::ranges::count(opened, true) > 2;
+    const InletCandidate& best = *ends[inlet].inlet;
+    for (std::size_t e = 0; e < ends.size(); ++e) {
+        const auto& other = ends[e].inlet;
+        if (e == inlet || !opened[e] || !other) continue;
+        if (other->width > kWiderOutlet * best.width ||
+            (furcates && other->odds * kInletCertain > best.odds))
+            return true;
+    }
+    return false;
 }
 
 }  // namespace vesselbench

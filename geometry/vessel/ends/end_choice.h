@@ -20,7 +20,7 @@ inline constexpr double kLikely = 2.0;
 
 /// An inlet that is likelier than any other end of a tree by this factor is no doubt [-], unless an
 /// end is wider by kWiderOutlet. Of a vessel without furcations, only the widths count.
-inline constexpr double kInletCertain = 1.5;
+inline constexpr double kInletCertain = 1.2;
 inline constexpr double kWiderOutlet = 1.1;
 
 /// What was measured of a candidate, and what is to become of it.
@@ -39,7 +39,6 @@ struct EndChoice {
     std::vector<EndVerdict> ends;      ///< by end
     std::vector<EndVerdict> stubs;     ///< by blind branch without a line
     std::optional<std::size_t> inlet;  ///< the end where the blood enters; none: unknown
-    bool inlet_doubtful = false;       ///< another end may be as likely, or is wider
 };
 
 /// Opens the ends whose odds say so: likelier openings than not, small ones kLikely; at least two
@@ -49,5 +48,11 @@ struct EndChoice {
 /// \throw Cancelled
 [[nodiscard]] EndChoice choose_ends(const EndScene& scene, const std::vector<SurfaceEnd>& ends,
                                     const std::vector<Stub>& stubs, const Progress& progress = {});
+
+/// True if another opening may be the inlet as well: it is about as likely (kInletCertain), or
+/// wider (kWiderOutlet). Of two openings only the widths count: nothing else tells where the blood
+/// enters. \param ends verdicts by end; `inlet` has been judged as one \param opened by end
+[[nodiscard]] bool has_rival(const std::vector<EndVerdict>& ends, std::size_t inlet,
+                             const std::vector<bool>& opened);
 
 }  // namespace vesselbench

@@ -87,8 +87,7 @@ void measure_sections(const EndScene& scene, const Stub& stub, EndProfile& profi
 
 /// Edge of the voxels, or of the surface's triangles [mm].
 double element_size(const EndScene& scene) {
-    return scene.voxels ? std::cbrt(std::abs(scene.voxels->determinant()))
-                        : mean_edge_length(scene.surface);
+    return scene.image ? scene.image->voxel() : mean_edge_length(scene.surface);
 }
 
 /// The vessels that a stub leaves: those at the furcation in whose sphere its root lies, or the one
@@ -119,13 +118,14 @@ void measure_lineless(const CenterlineGraph& graph, const std::vector<double>& c
 /// Who left two ends open, or named them, has cut the vessels: what is closed beside them was left
 /// closed.
 void add_cuts(const std::vector<SurfaceEnd>& ends, EndProfiles& profiles) {
-    double cut = 0.0, all = 0.0;
+    double cut = 0.0, all = 0.0, faces = 0.0;
     std::size_t count = 0;
     for (const EndProfile& stub : profiles.stubs) all += std::pow(stub.diameter, 3.0);
     for (std::size_t e = 0; e < ends.size(); ++e) {
         const EndProfile& profile = profiles.ends[e];
         const double cube = std::pow(profile.diameter, 3.0);
         all += cube;
+        if (ends[e].tip) faces += profile.upright();
         if (!profile.is_left_open()) continue;
         cut += cube;
         if (ends[e].tip) ++count;
@@ -135,13 +135,17 @@ void add_cuts(const std::vector<SurfaceEnd>& ends, EndProfiles& profiles) {
             if (!profile.is_left_open()) {
                 profile.cut_beside = all > 0.0 ? cut / all : 0.0;
                 profile.cuts_beside = count;
+                profile.faces_beside = faces - profile.upright();
             }
 }
 
 EndKind kind_of(const EndScene& scene, const SurfaceEnd& end) {
     if (!end.patch) return end.rim.empty() ? EndKind::Blind : EndKind::Rim;
     if (scene.surface.patches[*end.patch].kind != PatchKind::Cut) return EndKind::Named;
-    return scene.border_cuts ? EndKind::Border : EndKind::Face;
+    const bool border =
+        scene.border_cuts &&
+        (!scene.image || scene.image->ends_at(patch_shape(scene.surface, *end.patch).plane));
+    return border ? EndKind::Border : EndKind::Face;
 }
 
 /// Of the circle with the area of an open border, or of a cap [mm]; 0: there is none.
@@ -207,7 +211,17 @@ double imbalance(const std::vector<double>& cubes) {
     return std::isfinite(least) ? least : 0.0;
 }
 
+/// Of the wall over a cap, as a share of a right angle [-].
+double lean_of(const EndProfile& profile) {
+    return (90.0 - profile.cap_rise) / 90.0;
+}
+
 }  // namespace
+
+double EndProfile::upright() const {
+    if (kind != EndKind::Face) return 0.0;
+    return std::max(0.0, 1.0 - std::abs(lean_of(*this)) / kMostLean);
+}
 
 double EndProfile::need() const {
     if (others.size() < 2) return 0.0;
@@ -219,14 +233,15 @@ double EndProfile::need() const {
 EndFeatures features_of(const EndProfile& p) {
     const bool branch = p.parent > 0.0;
     // A plane that has cut a vessel shows that it went on there, however short it is.
-    const auto unless_cut = [cut = p.is_cut()](double value) { return cut ? 0.0 : value; };
+    const double uncut = p.is_cut() ? 0.0 : 1.0 - p.upright();
+    const auto unless_cut = [uncut](double value) { return uncut * value; };
     const auto of_kind = [&](EndKind kind) { return p.kind == kind ? 1.0 : 0.0; };
     const double length = branch ? log_ratio(std::max(p.length, 1e-6 * p.diameter), p.diameter)
                                  : std::log(kMostRatio);
     const double surplus =
         branch ? std::max(0.0, log_ratio(p.diameter, std::cbrt(p.other_flow()))) : 0.0;
     const double border = of_kind(EndKind::Border), face = of_kind(EndKind::Face);
-    const double share = log_ratio(p.cap_share, 1.0), lean = (90.0 - p.cap_rise) / 90.0;
+    const double share = log_ratio(p.cap_share, 1.0), lean = lean_of(p);
     return {1.0,
             unless_cut(length),
             unless_cut(std::max(0.0, -length)),
@@ -246,8 +261,10 @@ EndFeatures features_of(const EndProfile& p) {
             face,
             face * share,
             face * lean,
+            p.upright(),
             p.cut_beside,
-            p.cuts_beside >= kFewestCuts ? 1.0 : 0.0};
+            p.cuts_beside >= kFewestCuts ? 1.0 : 0.0,
+            unless_cut(std::min(1.0, p.faces_beside / kFewestCuts))};
 }
 
 EndProfiles profiles_of(const EndScene& scene, const std::vector<SurfaceEnd>& ends,
@@ -265,7 +282,7 @@ EndProfiles profiles_of(const EndScene& scene, const std::vector<SurfaceEnd>& en
     const double element = element_size(scene);
     for (auto* list : {&profiles.ends, &profiles.stubs})
         for (EndProfile& profile : *list) profile.across = profile.diameter / element;
-    if (!scene.border_cuts) add_cuts(ends, profiles);
+    add_cuts(ends, profiles);
     return profiles;
 }
 

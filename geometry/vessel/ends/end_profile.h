@@ -7,18 +7,18 @@
 #include <string_view>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "geometry/vessel/centerlines/stubs.h"
+#include "geometry/vessel/ends/image_box.h"
 #include "geometry/vessel/ends/surface_ends.h"
 
 namespace vesselbench {
 
-/// The edges of an image's voxels [mm], a column each.
-using VoxelEdges = Eigen::Matrix3d;
-
 /// Ends that were left open or named, from which on they are taken for all of them.
 inline constexpr std::size_t kFewestCuts = 2;
+
+/// How far the wall leans at most over a face that a plane may have cut, as a share of a right
+/// angle [-].
+inline constexpr double kMostLean = 0.2;
 
 /// How a candidate for a vessel's end looks.
 enum class EndKind {
@@ -47,11 +47,14 @@ struct EndProfile {
     double straight = 0.0;
     double closure = 0.0;    ///< of the circle with its rim's or cap's area [mm]; 0: it has none
     double cap_share = 1.0;  ///< of a cap: its diameter over its vessel's [-]
-    double cap_rise = 90.0;  ///< of a cap: mean angle of the wall beside it and its plane [deg]
+    double cap_rise = 90.0;  ///< of a cap: mean angle of the wall behind it and its plane [deg]
     /// Of an end that nobody named or left open: share of the flow through rims and named caps [-]
     double cut_beside = 0.0;
     /// Of the same: number of these rims and named caps, as far as a line leads to them
     std::size_t cuts_beside = 0;
+    /// Of a closed end: sum of `upright` of the planar faces beside it, as far as a line leads to
+    /// them [-]
+    double faces_beside = 0.0;
 
     /// Somebody has left it open, or named it.
     [[nodiscard]] bool is_left_open() const {
@@ -60,6 +63,10 @@ struct EndProfile {
 
     /// Somebody, or the image's border, has cut a vessel there.
     [[nodiscard]] bool is_cut() const { return is_left_open() || kind == EndKind::Border; }
+
+    /// Of a planar face of the wall [-]: 1 where the wall stands upright on it, as on one that a
+    /// plane has cut; 0 where it leans by kMostLean or more, as into a flat place of a dome.
+    [[nodiscard]] double upright() const;
 
     /// Another vessel at its furcation. \param course its diameter [mm]
     void add_other(double course) {
@@ -78,11 +85,11 @@ struct EndProfile {
 };
 
 /// Dimensionless, in the order of `kEndFeatures`.
-inline constexpr std::array<std::string_view, 21> kEndFeatures = {
-    "one",         "length",     "short",        "neck",        "beside_parent", "surplus",
-    "beside_tree", "need",       "widening",     "taper",       "straight",      "across",
-    "rim",         "border",     "border_share", "border_lean", "face",          "face_share",
-    "face_lean",   "cut_beside", "cuts_beside"};
+inline constexpr std::array<std::string_view, 23> kEndFeatures = {
+    "one",         "length",  "short",        "neck",        "beside_parent", "surplus",
+    "beside_tree", "need",    "widening",     "taper",       "straight",      "across",
+    "rim",         "border",  "border_share", "border_lean", "face",          "face_share",
+    "face_lean",   "upright", "cut_beside",   "cuts_beside", "faces_beside"};
 
 using EndFeatures = std::array<double, kEndFeatures.size()>;
 
@@ -92,8 +99,8 @@ using EndFeatures = std::array<double, kEndFeatures.size()>;
 struct EndScene {
     const Surface& surface;
     const CenterlineGraph& graph;
-    std::optional<VoxelEdges> voxels;  ///< of the image that the surface was made from
-    bool border_cuts = false;          ///< as OpeningPlanOptions
+    std::optional<ImageBox> image;  ///< that the surface was made from
+    bool border_cuts = false;       ///< as OpeningPlanOptions
 };
 
 /// Of all candidates for a vessel's end.

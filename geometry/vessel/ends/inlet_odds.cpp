@@ -19,13 +19,17 @@ constexpr double kLeastOpening = 0.5;
 /// those of the trunk.
 constexpr double kWideVessel = 8.0;
 
-/// The lines' diameters where blood flows: branches that end in a sac or a bump have none.
+/// The lines' diameters where blood flows: branches that end in a sac or a bump have none, and
+/// those of ends are at least as wide as what closes them allows: a short one has no course.
 std::vector<double> flowing(const CenterlineGraph& graph, const std::vector<SurfaceEnd>& ends,
+                            const std::vector<EndProfile>& profiles,
                             const std::vector<double>& opening) {
     std::vector<double> diameters = course_diameters(graph);
-    for (std::size_t e = 0; e < ends.size(); ++e)
-        if (ends[e].tip && opening[e] < kLeastOpening)
-            diameters[branch_of_tip(graph, *ends[e].tip)] = 0.0;
+    for (std::size_t e = 0; e < ends.size(); ++e) {
+        if (!ends[e].tip) continue;
+        double& diameter = diameters[branch_of_tip(graph, *ends[e].tip)];
+        diameter = opening[e] < kLeastOpening ? 0.0 : std::max(diameter, profiles[e].diameter);
+    }
     return diameters;
 }
 
@@ -47,7 +51,7 @@ public:
         : ends_(ends),
           profiles_(profiles),
           opening_(opening),
-          tree_(scene.graph, flowing(scene.graph, ends, opening)) {
+          tree_(scene.graph, flowing(scene.graph, ends, profiles, opening)) {
         for (std::size_t e = 0; e < ends.size(); ++e) {
             if (opening[e] < kLeastOpening) continue;
             open_.push_back(e);

@@ -18,8 +18,9 @@ struct PatchShape {
 /// \throw InvalidInput if the surface has no such patch, or it has no triangles
 [[nodiscard]] PatchShape patch_shape(const Surface& surface, std::size_t patch);
 
-/// Mean angle between the wall along a patch's border and the patch's mean plane [deg], by length:
-/// 90 for a cap perpendicular to a tube, little for a flat place of a dome.
+/// Mean angle between the wall behind a patch and the patch's mean plane [deg], by area, from half
+/// the patch's radius behind it, where a rounded rim ends, to a whole one: 90 for a cap across a
+/// tube, less for a flat place of a dome. Without such a wall, 90.
 /// \throw InvalidInput if the surface has no such patch
 [[nodiscard]] double wall_rise_deg(const Surface& surface, std::size_t patch);
 

@@ -58,6 +58,12 @@ bool is_certainly_closed(const EndRecord& end) {
     return end.verdict && end.verdict->odds.for_opening() < 1.0 / kCertain;
 }
 
+/// It was to be opened, or may be an opening. Of what was left closed beside cuts, the odds do not
+/// say so.
+bool may_be_opening(const EndRecord& end) {
+    return end.verdict && (end.verdict->open || end.verdict->doubtful);
+}
+
 /// An end that went with the cut of another one as wide, or cannot be cut beside it, is a part of
 /// it.
 bool is_part_of_cut(const OpeningPlan& plan, const EndRecord& end) {
@@ -71,8 +77,8 @@ bool is_part_of_cut(const OpeningPlan& plan, const EndRecord& end) {
 
 /// An end whose flow would be missing, though nobody asked for it.
 bool is_missing(const OpeningPlan& plan, const EndRecord& end) {
-    return !has_opening(end) && !end.asked && end.verdict && end.share() > kLeastShare &&
-           !is_certainly_closed(end) && !is_part_of_cut(plan, end);
+    return !has_opening(end) && !end.asked && end.share() > kLeastShare && may_be_opening(end) &&
+           !is_part_of_cut(plan, end);
 }
 
 bool is_doubtful(const OpeningPlan& plan, const EndRecord& end) {

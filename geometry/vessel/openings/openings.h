@@ -98,8 +98,8 @@ struct OpeningPlanOptions {
     bool leave_closed = false;
     /// Of ends that may be openings or not, the likelier choice is made (check_flow).
     bool accept_doubts = false;
-    /// Of the image that the surface was made from.
-    std::optional<VoxelEdges> voxels;
+    /// That the surface was made from.
+    std::optional<ImageBox> image;
     Positions inlets;  ///< near the ends that are inlets: they have to be opened [mm]
     Positions open;    ///< near ends that have to be opened, though they may look closed [mm]
     Positions closed;  ///< near the ends that stay closed [mm]

@@ -65,7 +65,7 @@ PlanDraft::PlanDraft(const Surface& surface, const LinesWithoutFrays& lines,
     const std::vector<Stub> stubs = stubs_apart(options.stubs, lines.graph, ends_);
     choice_ = choose_ends({.surface = surface,
                            .graph = lines.graph,
-                           .voxels = options.voxels,
+                           .image = options.image,
                            .border_cuts = options.border_cuts},
                           ends_, stubs, progress);
     for (std::size_t e = 0; e < ends_.size(); ++e) {
@@ -180,29 +180,14 @@ OpeningPlan PlanDraft::finished() {
     return std::move(plan_);
 }
 
-/// An opening that is about as likely the inlet as `inlet`, or wider. Of two openings only the
-/// widths count.
-bool PlanDraft::has_rival(std::size_t inlet) const {
-    const std::ptrdiff_t openings =
-        std::ranges::count_if(made_, [](const auto& made) { return made.has_value(); });
-    const InletCandidate& best = *choice_.ends[inlet].inlet;
-    for (std::size_t e = 0; e < made_.size(); ++e) {
-        const auto& other = choice_.ends[e].inlet;
-        if (e == inlet || !made_[e] || !other) continue;
-        if (other->width > kWiderOutlet * best.width ||
-            (openings > 2 && other->odds * kInletCertain > best.odds))
-            return true;
-    }
-    return false;
-}
-
 /// Those that were named; else the likeliest, unless the surface names one.
 void PlanDraft::choose_inlet() {
     const bool named = std::ranges::count(surface_.patches, PatchKind::Inlet, &Patch::kind) > 0;
     if (inlets_.empty() && !named && choice_.inlet && made_[*choice_.inlet]) {
         inlets_.push_back(*choice_.inlet);
-        // A rival that an image's border grazes, or that could not be cut, is none.
-        plan_.inlet_doubtful = choice_.inlet_doubtful && has_rival(*choice_.inlet);
+        std::vector<bool> opened;
+        for (const auto& made : made_) opened.push_back(made.has_value());
+        plan_.inlet_doubtful = has_rival(choice_.ends, *choice_.inlet, opened);
     }
     for (const std::size_t e : inlets_)
         if (made_[e]) plan_.inlets.push_back(*records_[e].opening);

@@ -84,8 +84,6 @@ public:
 
 private:
     void add_threads();
-    void add_stubs();
-    [[nodiscard]] bool has_rival(std::size_t inlet) const;
     void choose_inlet();
     void number_ends();
 

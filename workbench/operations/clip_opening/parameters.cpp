@@ -10,10 +10,6 @@ namespace vesselbench {
 
 namespace {
 
-VoxelEdges voxel_edges(const Image& image) {
-    return image.index_to_patient.topLeftCorner<3, 3>();
-}
-
 /// Which end, and where it is cut.
 std::vector<Parameter> place_parameters() {
     using enum ParameterType;
@@ -180,7 +176,8 @@ OpeningPlanOptions plan_options(const Arguments& arguments, const std::optional<
     options.accept_doubts = arguments.flag("accept_doubts");
     options.leave_closed = arguments.text("closed_ends") == "leave";
     if (options.leave_closed) options.border_cuts = false;
-    if (image) options.voxels = voxel_edges(*image);
+    if (image)
+        options.image = ImageBox{.size = image->size, .index_to_patient = image->index_to_patient};
     if (!options.tip) options.inlets = points_of(arguments, "inlet");
     options.open = points_of(arguments, "open");
     options.closed = points_of(arguments, "closed");
