@@ -79,6 +79,7 @@ SCENARIO("A batch prepares each case by itself; one that fails stops no other",
     CHECK(table["cases"][0]["figures"]["triangles"] == 320);
     CHECK(table["cases"][2]["state"] == "failed");
     CHECK(fs::exists(cohort.folder + "/out/cases/large/report.html"));
+    CHECK_FALSE(fs::exists(cohort.folder + "/out/questions.html"));
     THEN("failures are grouped by their codes") {
         REQUIRE(table["failures"].size() == 1);
         CHECK(table["failures"][0]["code"] == "bad-input");
@@ -205,6 +206,9 @@ SCENARIO("The commands of docs/user/batch.md work", "[workbench][batch]") {
     const Cohort cohort;
     fs::create_directories(cohort.folder + "/surfaces");
     fs::copy(cohort.folder + "/small.stl", cohort.folder + "/surfaces");
+    write_text(cohort.folder + "/answers.json",
+               R"({"answers": [{"case": "small", "sha256": "of another file",
+                    "ends": [{"place_mm": [0, 0, 0], "answer": "open"}]}]})");
     const Names blocks = code_blocks();
     for (const std::string& block : blocks)
         if (block.starts_with("case,")) write_text(cohort.manifest, block);

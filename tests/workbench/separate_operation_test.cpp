@@ -95,7 +95,9 @@ SCENARIO("The bundled case's image alone becomes two outlets of one vessel",
     CHECK(parted["report"]["genus_after"] == 0);
     run({"apply", project, "remove-branch", "tip=0,5.6,8.2"});
     run({"apply", project, "remove-branch", "tip=2.4,-6,41.2"});
-    const auto opened = nlohmann::json::parse(run({"apply", project, "clip-opening", "--json"}));
+    // The dome of a wide aneurysm may be a vessel's end as well: it is named.
+    const auto opened = nlohmann::json::parse(
+        run({"apply", project, "clip-opening", "closed=-5,-2.5,17.2", "--json"}));
     std::vector<std::string> names;
     for (const auto& opening : opened["resolved"]["names"]) names.push_back(opening["name"]);
     CHECK(names == std::vector<std::string>{"inlet", "outlet_1", "outlet_2"});

@@ -5,8 +5,7 @@
 #include <map>
 #include <string_view>
 
-#include "geometry/kernel/errors.h"
-#include "geometry/kernel/whole_file.h"
+#include "geometry/kernel/bare_name.h"
 #include "geometry/kernel/wording.h"
 #include "workbench/batch/case_report.h"
 #include "workbench/batch/run_case.h"
@@ -54,14 +53,6 @@ void add_report(TableRow& row, const Json& report) {
         row.findings = findings->size();
     for (const TableFigure& figure : table_figures())
         row.figures[figure.name] = figure_in(report, figure);
-}
-
-std::string content_if_any(const fs::path& file) {
-    try {
-        return file_content(file);
-    } catch (const IoError&) {
-        return {};
-    }
 }
 
 /// The name that the case's reports have: a given one replaces those of files.

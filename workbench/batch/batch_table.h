@@ -46,6 +46,7 @@ struct BatchTable {
     std::string purpose;
     std::vector<TableRow> rows;          ///< in the order of the manifest
     std::vector<FailureGroup> failures;  ///< the most frequent first, then by code
+    std::size_t questions = 0;           ///< cases on the page of questions
 
     [[nodiscard]] std::size_t count(CaseState state) const;
 };

@@ -60,6 +60,14 @@ Json figure_in(const Json& report, const TableFigure& figure) {
     return found.is_number() ? found : Json();
 }
 
+std::string content_if_any(const fs::path& file) {
+    try {
+        return file_content(file);
+    } catch (const IoError&) {
+        return {};
+    }
+}
+
 std::string review_state(const fs::path& folder, const std::string& purpose) {
     const fs::path project = folder / "project.vbench";
     try {

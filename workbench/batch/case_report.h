@@ -27,6 +27,9 @@ struct TableFigure {
 [[nodiscard]] nlohmann::ordered_json figure_in(const nlohmann::ordered_json& report,
                                                const TableFigure& figure);
 
+/// All bytes of a file in a case's folder; empty: there is none, or it cannot be read.
+[[nodiscard]] std::string content_if_any(const std::filesystem::path& file);
+
 /// The review of the case's project at this moment, in a few words: "not reviewed", review_words(),
 /// or why it is not known.
 [[nodiscard]] std::string review_state(const std::filesystem::path& folder,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <map>
 
 #include "geometry/formats/format.h"
 #include "geometry/kernel/bare_name.h"
@@ -57,6 +58,31 @@ std::size_t bytes_of(const fs::path& path) {
     return sum;
 }
 
+/// Of a file and of the voxels that it names.
+std::string digest_with_voxels(const fs::path& file, FileDigests& digests) {
+    std::string all = digests.next(file);
+    if (const fs::path voxels = detached_voxels(file); !voxels.empty())
+        all += " " + digests.next(voxels);
+    return all;
+}
+
+/// Digests of the files among a case's values.
+struct ValueFiles {
+    std::map<std::string, std::string> digests;  ///< by the value's text
+    std::string mask;                            ///< of the mask, a blank before it; may be empty
+};
+
+ValueFiles digested_files(const std::vector<CaseValue>& values, FileDigests& digests) {
+    ValueFiles files;
+    for (const CaseValue& value : values) {
+        if (!value.is_file) continue;
+        const std::string digest = digest_with_voxels(value.text, digests);
+        files.digests[value.text] = digest;
+        if (value.option == "mask") files.mask = " " + digest;
+    }
+    return files;
+}
+
 bool is_by_limit(const CaseFailure& failure) {
     return failure.code == "time-limit" || failure.code == "memory-limit";
 }
@@ -71,40 +97,44 @@ bool is_current(const CaseRecord& record, const PlannedCase& one, const BatchOpt
     return record.limits == options.limits || !is_by_limit(*record.failure);
 }
 
-PlannedCase planned(const BatchCase& one, const BatchOptions& options, const std::string& program) {
+PlannedCase planned(const BatchCase& one, const BatchOptions& options, const std::string& program,
+                    const Answers& answers) {
     std::optional<CaseRecord> record = read_record(options.folders.of(one.name));
     FileDigests digests(record ? record->files : Json());
     const fs::path input = file_of_input(one.input);
-    const auto digest = [&](const fs::path& file) {
-        std::string all = digests.next(file);
-        if (const fs::path voxels = detached_voxels(file); !voxels.empty())
-            all += " " + digests.next(voxels);
-        return all;
-    };
+    const ValueFiles files = digested_files(one.values, digests);
+    const std::string of_input = digest_with_voxels(input, digests);
+    PlannedCase plan{.what = one,
+                     .key = {},
+                     .files = digests.json(),
+                     .sha256 = of_input + files.mask,
+                     .input_bytes = bytes_of(input) + bytes_of(detached_voxels(input)),
+                     .record = {}};
+    if (const auto found = answers.find(one.name); found != answers.end()) {
+        plan.outdated = found->second.sha256 != plan.sha256;
+        if (!plan.outdated) plan.what = answered(one, found->second);
+    }
     Json values = Json::array();
-    for (const CaseValue& value : one.values)
+    for (const CaseValue& value : plan.what.values)
         if (value.is_file)
-            values.push_back({value.option, bare_name(value.text), digest(value.text)});
+            values.push_back({value.option, bare_name(value.text), files.digests.at(value.text)});
         else
             values.push_back({value.option, value.text});
     const Json all = {{"program", program},
                       {"purpose", options.purpose},
                       {"name", bare_name(one.input)},
-                      {"input", digest(input)},
+                      {"input", of_input},
                       {"values", values}};
-    PlannedCase plan{.what = one,
-                     .key = hash_of_text(text_from_json(all)),
-                     .files = digests.json(),
-                     .input_bytes = bytes_of(input) + bytes_of(detached_voxels(input)),
-                     .record = {}};
+    plan.key = hash_of_text(text_from_json(all));
     if (record && is_current(*record, plan, options)) plan.record = std::move(record);
     return plan;
 }
 
-std::vector<PlannedCase> planned(const std::vector<BatchCase>& cases, const BatchOptions& options) {
+std::vector<PlannedCase> planned(const std::vector<BatchCase>& cases, const BatchOptions& options,
+                                 const Answers& answers) {
     const std::string program = hash_of_file("/proc/self/exe");
     std::vector<PlannedCase> plans;
-    for (const BatchCase& one : cases) plans.push_back(planned(one, options, program));
+    for (const BatchCase& one : cases) plans.push_back(planned(one, options, program, answers));
     return plans;
 }
 

@@ -37,8 +37,9 @@ CaseRun prepared(const PlannedCase& one, const BatchOptions& options, const Batc
         if (!earlier.empty())
             tell(one.what.name + " is prepared again: its earlier results are now " +
                  earlier.string());
-        CaseRun run = run_program_limited(prepare_arguments(one.what, options.purpose, folder),
-                                          folder / kLog, options.limits, progress);
+        std::vector<std::string> arguments = prepare_arguments(one.what, options.purpose, folder);
+        arguments.emplace_back("--question");
+        CaseRun run = run_program_limited(arguments, folder / kLog, options.limits, progress);
         if (was_cancelled(run)) run.ending = CaseEnding::Killed;
         if (run.ending != CaseEnding::Killed || runs == kMostRuns) return run;
     }

@@ -12,6 +12,7 @@
 #include "geometry/kernel/printable.h"
 #include "geometry/kernel/whole_file.h"
 #include "geometry/kernel/wording.h"
+#include "workbench/batch/answered_plan.h"
 #include "workbench/case/shell_text.h"
 #include "workbench/project/content_hash.h"
 #include "workbench/project/file_lock.h"
@@ -200,7 +201,8 @@ void run_task(const BatchCase& one, const BatchOptions& options, const BatchTell
               const Progress& progress) {
     const FileLock::Attempt attempt = FileLock::acquire(options.folders.out / "slurm" / one.name);
     if (attempt.lock == nullptr) throw IoError("'" + one.name + "': " + attempt.reason);
-    const PlannedCase plan = planned({one}, options).front();
+    const auto quiet = [](const std::string&) {};  // the batch itself has said it
+    const PlannedCase plan = plan_with_answers({one}, options, quiet).cases.front();
     if (!plan.record) static_cast<void>(run_case(plan, options, tell, progress));
 }
 

@@ -1,14 +1,13 @@
 #include "workbench/batch/table_page.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <vector>
 
 #include "geometry/kernel/wording.h"
 #include "workbench/batch/case_report.h"
+#include "workbench/batch/page_parts.h"
 #include "workbench/batch/page_texts.h"
 #include "workbench/case/purposes.h"
-#include "workbench/project/content_hash.h"
 #include "workbench/report/base64.h"
 #include "workbench/report/rendered_template.h"
 
@@ -17,15 +16,6 @@ namespace vesselbench {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// As a policy names a text that it allows.
-std::string source_hash(const std::string& text) {
-    const std::string hex = hash_of_text(text);
-    std::string bytes;
-    for (std::size_t i = 0; i + 1 < hex.size(); i += 2)
-        bytes += static_cast<char>(std::strtol(hex.substr(i, 2).c_str(), nullptr, 16));
-    return "sha256-" + base64(bytes);
-}
 
 std::string summary_of(const BatchTable& table) {
     std::string text = counted(table.rows.size(), "case");
@@ -66,11 +56,6 @@ std::string with_dashes(std::string text) {
     return text;
 }
 
-/// Mustache leaves out what is false: an empty text would show the one of the level above.
-Json or_false(const std::string& text) {
-    return text.empty() ? Json(false) : Json(text);
-}
-
 Json row_json(const TableRow& row, const std::vector<TableFigure>& figures) {
     const bool has_report = row.state == CaseState::Done || row.state == CaseState::DoneByHand;
     return {{"name", row.name},
@@ -98,6 +83,7 @@ std::string table_page(const BatchTable& table) {
     Json page = {
         {"title", "Cases prepared for " + table.purpose + ": " + find_purpose(table.purpose).title},
         {"summary", summary_of(table)},
+        {"questions", or_false(table.questions > 0 ? counted(table.questions, "question") : "")},
         {"script_hash", source_hash(script)},
         {"style_hash", source_hash(style)},
         {"script", script},

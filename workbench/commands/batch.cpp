@@ -9,7 +9,9 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/printable.h"
 #include "geometry/kernel/wording.h"
+#include "workbench/batch/answered_plan.h"
 #include "workbench/batch/batch_cost.h"
+#include "workbench/batch/questions_page.h"
 #include "workbench/batch/run_cases.h"
 #include "workbench/batch/slurm.h"
 #include "workbench/case/json_text.h"
@@ -73,7 +75,8 @@ BatchOptions options_of(const BatchArguments& arguments) {
             .purpose = find_purpose(arguments.purpose).name,
             .limits = arguments.limits,
             .jobs = arguments.jobs == 0 && arguments.engine == "local" ? 1 : arguments.jobs,
-            .retry = arguments.retry};
+            .retry = arguments.retry,
+            .answers = arguments.answers};
 }
 
 std::string plan_word(const PlannedCase& one) {
@@ -110,6 +113,9 @@ void print_result(const BatchResult& result, const BatchArguments& arguments) {
     const fs::path out = arguments.out;
     std::cout << "\ntable:  " << (out / "table.html").string() << ", "
               << (out / "table.csv").string() << "\n";
+    if (table.questions > 0)
+        std::cout << "ask:    " << (out / kQuestionsPage).string() << " ("
+                  << counted(table.questions, "case") << "): answer there, and add --answers\n";
     const std::string cost = cost_text(result.cases, options_of(arguments).jobs);
     if (!cost.empty()) std::cout << "cost:   " << cost << "\n";
 }
@@ -124,14 +130,15 @@ bool prepare_cases(const BatchArguments& arguments, const Progress& progress) {
         return true;
     }
     if (arguments.dry_run) {
-        const std::vector<PlannedCase> plans = planned(cases, options);
+        const std::vector<PlannedCase> plans = plan_with_answers(cases, options, &remark).cases;
         if (arguments.json)
             std::cout << text_from_json(table_json(batch_table(plans, options)), 2) << "\n";
         else
             print_plan(plans, options.jobs);
         return true;
     }
-    const BatchResult result = run_batch(cases, options, engine_of(arguments, options, progress));
+    const BatchResult result =
+        run_batch(cases, options, engine_of(arguments, options, progress), &remark);
     if (arguments.json)
         std::cout << text_from_json(table_json(result.table), 2) << "\n";
     else

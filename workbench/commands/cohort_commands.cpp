@@ -19,10 +19,14 @@ constexpr const char* kFooter =
     "relative to the manifest. An option given here holds for all cases without their own value.\n"
     "OUT gets table.html, table.csv, costs.csv, and a folder cases/NAME for each case. What is\n"
     "finished there is not run again, unless its files, arguments or the program have changed.\n"
-    "Exit code 1 if a case failed, 3 if the manifest is wrong: then no case was run.\n"
+    "Where vessel ends are in doubt, OUT gets questions.html, a page that asks about all cases\n"
+    "and saves answers.json, which --answers takes. OUT keeps the answers for later batches.\n"
+    "Exit code 1 if a case failed, 3 if the manifest or the answers are wrong: then no case was\n"
+    "run.\n"
     "\n"
     "  vesselbench batch surfaces --for cfd --out cohort --jobs 2\n"
-    "  vesselbench batch cases.csv --for cfd --recipe ours.json --out cohort";
+    "  vesselbench batch cases.csv --for cfd --recipe ours.json --out cohort\n"
+    "  vesselbench batch surfaces --for cfd --out cohort --answers answers.json";
 
 /// What the command line declares about an option of `prepare`.
 CaseOption case_option(const CLI::Option& option) {
@@ -105,6 +109,10 @@ void add_cohort_commands(CommandLine& line) {
         ->type_name("N");
     command.add_option("--task", options->task, "Run this case, as a task of a job")->group("");
     add_limits(command, options->limits);
+    command
+        .add_option("--answers", options->answers,
+                    "What was answered on OUT/questions.html about vessel ends in doubt")
+        ->type_name("FILE.json");
     command.add_flag("--retry", options->retry, "Run the cases again that failed");
     command.add_flag("--dry-run", options->dry_run,
                      "List what would be run, and how long it may take");

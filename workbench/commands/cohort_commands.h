@@ -17,6 +17,7 @@ struct BatchArguments {
     CaseLimits limits;
     std::string engine = "local";  ///< "local" or "slurm"
     std::size_t jobs = 0;          ///< 0: 1 at a time here, on a cluster as many as it allows
+    std::string answers;           ///< file of what was answered on the page; empty: none
     std::string task;              ///< run this case alone, as a task of a cluster's job; empty: no
     bool retry = false;
     bool dry_run = false;

@@ -221,6 +221,7 @@ struct PrepareArguments {
     std::string author;  ///< empty: the login name
     std::string name;    ///< of the input in the report; empty: the file's
     bool resume = false;
+    bool question = false;  ///< a doubt about vessel ends leaves what a batch asks with
     bool json = false;
 };
 

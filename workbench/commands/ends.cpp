@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <iostream>
 
 #include <nlohmann/json.hpp>
@@ -10,35 +9,20 @@
 #include "workbench/commands/commands.h"
 #include "workbench/commands/console/console.h"
 #include "workbench/commands/console/messages.h"
-#include "workbench/commands/end_picture.h"
 #include "workbench/operations/clip_opening/clipping.h"
 #include "workbench/operations/clip_opening/clipping_record.h"
+#include "workbench/operations/clip_opening/planned_ends.h"
 #include "workbench/prepare/before_cuts.h"
+#include "workbench/prepare/end_picture.h"
 
 namespace vesselbench {
 
 namespace {
 
-/// Of the plan's openings: only the inlets are known before they are made.
-std::vector<std::string> opening_names(const OpeningPlan& plan) {
-    std::vector<std::string> names(plan.openings.size(), "outlet");
-    for (const std::size_t inlet : plan.inlets) names[inlet] = "inlet";
-    for (std::size_t i = 0; i < names.size(); ++i)
-        if (plan.openings[i].patch) names[i] = plan.openings[i].patch->name;
-    return names;
-}
-
-std::vector<EndRecord> by_number(const OpeningPlan& plan) {
-    std::vector<EndRecord> ends = plan.ends;
-    std::ranges::stable_sort(
-        ends, {}, [](const EndRecord& end) { return std::pair(end.number == 0, end.number); });
-    return ends;
-}
-
 void print_table(const OpeningPlan& plan, const std::vector<std::string>& names) {
     std::vector<std::vector<std::string>> rows = {
         {"end", "place [mm]", "diameter [mm]", "flow", "opening", "sac", "fate", "why"}};
-    for (const EndRecord& end : by_number(plan)) {
+    for (const EndRecord& end : plan.ends) {
         const auto share = [](double x) { return formatted(100.0 * x, "%.0f %%"); };
         rows.push_back({end.number > 0 ? std::to_string(end.number) : "-",
                         coordinates_argument(end.place), formatted(end.diameter),
@@ -57,8 +41,8 @@ void list_ends(const EndsOptions& options, const Progress& progress) {
         before_cuts({options.input.input, options.input.mask, options.input.units}, "cfd",
                     with_ends(options.settings, options.ends), remark, progress.part(0.0, 0.7));
     OpeningPlan plan = planned_openings(before.scene, before.cutting, progress.part(0.7, 1.0));
-    const std::vector<std::string> names = opening_names(plan);
-    plan.ends = by_number(plan);
+    const std::vector<std::string> names = planned_names(plan);
+    plan.ends = ends_by_number(plan);
     if (!options.picture.empty()) {
         PendingFiles files;
         files.add_text(options.picture, png(picture_of_ends(surface_of(before.scene), plan)));

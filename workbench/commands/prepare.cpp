@@ -111,7 +111,8 @@ void prepare_case(const PrepareArguments& arguments, const Progress& progress) {
                                          .arguments = with_ends(arguments.settings, arguments.ends),
                                          .out = arguments.out,
                                          .resume = arguments.resume,
-                                         .author = arguments.author},
+                                         .author = arguments.author,
+                                         .question = arguments.question},
                                         tell, progress);
     if (arguments.json) return print_prepared(arguments, made);
     std::string what = purpose.result + ":";

@@ -116,6 +116,10 @@ void add_prepare(CommandLine& line) {
     command.add_flag(
         "--resume", options->resume,
         "Continue in the folder's project with the edits of the recipe that are missing");
+    command
+        .add_flag("--question", options->question,
+                  "Where ends are in doubt, write what a batch asks with")
+        ->group("");
     command.add_option("--out", options->out, "Folder of the results; created if missing")
         ->required()
         ->type_name("FOLDER");

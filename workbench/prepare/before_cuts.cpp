@@ -14,10 +14,6 @@ namespace vesselbench {
 
 namespace {
 
-bool cuts_ends(const RecipeEntry& entry) {
-    return entry.given.operation().recipe.cuts_ends;
-}
-
 /// The operation that opens vessel ends.
 const Operation& cutting_operation() {
     return *std::ranges::find_if(
@@ -44,6 +40,10 @@ BeforeCuts of_project(const std::string& project, const Progress& progress) {
 }
 
 }  // namespace
+
+bool cuts_ends(const RecipeEntry& entry) {
+    return entry.given.operation().recipe.cuts_ends;
+}
 
 BeforeCuts before_cuts(const InputOptions& options, const std::string& purpose,
                        const std::vector<std::string>& settings, const Teller& tell,

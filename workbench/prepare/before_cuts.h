@@ -15,6 +15,9 @@ struct BeforeCuts {
     Arguments cutting;  ///< arguments of the edit that would open them
 };
 
+/// True for the entry of a recipe that opens vessel ends.
+[[nodiscard]] bool cuts_ends(const RecipeEntry& entry);
+
 /// Of a project: the scene before its first edit that cuts ends, or its newest. Of another INPUT:
 /// what the recipe of `prepare` makes of it until then, without a file.
 /// \param settings "operation.parameter=value", as of `prepare`

@@ -17,6 +17,7 @@
 #include "workbench/prepare/acceptance_gate.h"
 #include "workbench/prepare/apply_recipe.h"
 #include "workbench/prepare/case_files.h"
+#include "workbench/prepare/end_question.h"
 #include "workbench/prepare/kept_recipe.h"
 #include "workbench/prepare/model_check.h"
 #include "workbench/prepare/prepare_report.h"
@@ -359,6 +360,8 @@ PrepareSummary prepare(const PrepareOptions& options, const Teller& tell,
                         progress.part(0.02, 1.0));
     } catch (const std::exception& error) {
         keep_what_was_made(session, options, any_edit, error, tell);
+        if (options.question)
+            write_end_question(session, recipe, options, error, progress.silent());
         throw;
     }
 }

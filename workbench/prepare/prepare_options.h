@@ -16,6 +16,7 @@ struct PrepareOptions {
     std::filesystem::path out;           ///< folder of the results
     bool resume = false;                 ///< goes on in the folder's project
     std::string author;                  ///< of the edits; empty: the login name
+    bool question = false;               ///< a doubt about vessel ends leaves kEndQuestion
 };
 
 }  // namespace vesselbench

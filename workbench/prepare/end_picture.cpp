@@ -1,4 +1,4 @@
-#include "workbench/commands/end_picture.h"
+#include "workbench/prepare/end_picture.h"
 
 #include <algorithm>
 #include <array>
