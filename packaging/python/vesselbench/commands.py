@@ -79,7 +79,8 @@ def batch(cases: PathLike, purpose: str, out: PathLike, *, settings: Mapping[str
           program: Program = None, **options: Option) -> Batch:
     """Prepares the cases of a manifest (.csv) or folder; those that are finished in `out` are not run again.
 
-    Cases that failed are in the result's `failures`. options: jobs, time_limit [s], memory_limit [GiB], retry, answers, engine ...
+    Cases that failed are in the result's `failures`.
+    options: jobs, time_limit [s], memory_limit [GiB], retry, answers, engine ...
     """
     words = [*option_words({"for": purpose, "out": out, **options}), *setting_words(settings)]
     return read(Batch, answer("batch", words, [os.fspath(cases)], program), "batch")
