@@ -1,6 +1,8 @@
 #include "geometry/vessel/ends/flat_faces.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include <catch2/catch.hpp>
 
@@ -18,6 +20,27 @@ constexpr double kCell = 0.5;    // [mm]
 /// A vessel that comes from below and that a plane at z = 0 has cut.
 double flat_end(const Vec3& p) {
     return std::max(capsule(p, {0.0, 0.0, -30.0}, {0.0, 0.0, 10.0}, kRadius), p.z());
+}
+
+/// A surface of revolution around z from its top on the axis down to an open rim.
+/// \param profile x, z
+Surface turned(const std::vector<Vec3>& profile, VertexId around) {
+    Positions points = {Vec3(0.0, 0.0, profile.front().z())};
+    std::vector<Triangle> triangles;
+    for (VertexId ring = 0; ring < profile.size(); ++ring)
+        for (VertexId k = 0; k < around; ++k) {
+            const double angle = 2.0 * std::numbers::pi * k / around;
+            points.emplace_back(profile[ring].x() * std::cos(angle),
+                                profile[ring].x() * std::sin(angle), profile[ring].z());
+            const VertexId next = (k + 1) % around, low = 1 + ring * around, high = low - around;
+            if (ring == 0) {
+                triangles.push_back({0, low + k, low + next});
+            } else {
+                triangles.push_back({high + k, low + k, low + next});
+                triangles.push_back({high + k, low + next, high + next});
+            }
+        }
+    return make_surface(std::move(points), std::move(triangles));
 }
 
 std::vector<FlatFace> faces_of(const ImplicitShape& shape) {
@@ -46,6 +69,19 @@ SCENARIO("A planar face that closes a vessel is found", "[geometry][flat_faces]"
             return std::hypot(std::max(wall, 0.0), std::max(over, 0.0)) +
                    std::min(std::max(wall, over), 0.0) - kRound;
         }));
+    }
+    THEN("where its rim is rounded, and its triangles are small") {
+        // Each triangle of the rim would grow the whole face.
+        constexpr double kRound = 0.2 * kRadius;
+        std::vector<Vec3> profile;  // radius, height
+        for (int i = 1; i <= 40; ++i) profile.emplace_back((kRadius - kRound) * i / 40.0, 0.0, 0.0);
+        for (int i = 1; i <= 16; ++i) {
+            const double angle = std::numbers::pi / 2.0 * i / 16.0;
+            profile.emplace_back(kRadius - kRound + kRound * std::sin(angle), 0.0,
+                                 kRound * (std::cos(angle) - 1.0));
+        }
+        for (int i = 1; i <= 60; ++i) profile.emplace_back(kRadius, 0.0, -kRound - 0.5 * i);
+        check_end(find_flat_faces(turned(profile, 120)));
     }
     THEN("where a branch leaves sideways close to it") {
         check_end(faces_of([](const Vec3& p) {

@@ -47,6 +47,7 @@ constexpr int kOutcome = 3;
 constexpr int kProgress = 4;
 constexpr int kPollMilliseconds = 20;
 constexpr auto kProgressInterval = std::chrono::milliseconds(20);
+constexpr auto kRepeatInterval = std::chrono::seconds(1);
 
 // The sanitizers' shadow memory needs more address space than any limit, and their reports need
 // files, programs and ptrace.
@@ -165,23 +166,35 @@ ChildSetup worker_setup(std::vector<std::string> command, const Descriptor& requ
     return setup;
 }
 
-/// Passes the worker's progress lines on until it closes its end. \return false after the deadline
-bool follow(int descriptor, const Progress& progress, Clock::time_point deadline) {
+/// Passes the worker's progress lines on until it closes its end, and repeats the last one where
+/// none comes: a log shows that a long step still runs.
+/// \param what the worker does, until it says so itself
+/// \return false after the deadline
+bool follow(int descriptor, const Progress& progress, std::string what,
+            Clock::time_point deadline) {
     std::string text;
+    double fraction = 0.0;
+    Clock::time_point last = Clock::now();
     std::array<char, 4096> buffer{};
     while (Clock::now() < deadline) {
         progress.check_cancelled();
         pollfd waiting{descriptor, POLLIN, 0};
-        if (poll(&waiting, 1, kPollMilliseconds) <= 0) continue;
+        if (poll(&waiting, 1, kPollMilliseconds) <= 0) {
+            if (Clock::now() - last < kRepeatInterval) continue;
+            progress.report(fraction, what);
+            last = Clock::now();
+            continue;
+        }
         const auto got = read(descriptor, buffer.data(), buffer.size());
         if (got < 0 && errno == EINTR) continue;
         if (got <= 0) return true;
         text.append(buffer.data(), static_cast<std::size_t>(got));
         for (auto end = text.find('\n'); end != std::string::npos; end = text.find('\n')) {
-            const auto space = text.find(' ');
-            const double fraction = std::strtod(text.c_str(), nullptr);
-            progress.report(std::clamp(fraction, 0.0, 1.0),
-                            text.substr(std::min(space + 1, end), end - std::min(space + 1, end)));
+            const std::size_t from = std::min(text.find(' ') + 1, end);
+            fraction = std::clamp(std::strtod(text.c_str(), nullptr), 0.0, 1.0);
+            what = text.substr(from, end - from);
+            progress.report(fraction, what);
+            last = Clock::now();
             text.erase(0, end + 1);
         }
     }
@@ -370,7 +383,7 @@ Outcome run_in_worker(const Operation& operation, const Scene& scene,
     Child child(worker_setup(std::move(command), request, answer, writing));
     writing.reset();
 
-    if (!follow(reading.number(), progress, Clock::now() + options.time_limit))
+    if (!follow(reading.number(), progress, operation.name, Clock::now() + options.time_limit))
         throw_broken(operation, arguments,
                      "took longer than " + std::to_string(options.time_limit.count()) + " s");
     const int status = child.wait();

@@ -6,7 +6,7 @@
 #include <map>
 #include <numbers>
 #include <optional>
-#include <set>
+#include <utility>
 
 #include <Eigen/Dense>
 
@@ -52,119 +52,176 @@ constexpr double kJustInside = 1e-3;  // mean edges
 
 constexpr int kRounds = 3;
 
+/// A triangle that was in so many regions that are no faces is no seed of another one: a smooth
+/// wall has fewer around each triangle, whatever its triangles' size, but the rim of a large flat
+/// place, or a rough one, would grow the same region once a triangle.
+constexpr std::uint8_t kMostTries = 64;
+
+/// A set of triangles that is emptied at once.
+class TriangleSet {
+public:
+    explicit TriangleSet(std::size_t triangles) : marks_(triangles, 0) {}
+
+    void clear() { ++mark_; }
+
+    void assign(const std::vector<TriangleId>& triangles) {
+        clear();
+        for (const TriangleId t : triangles) insert(t);
+    }
+
+    [[nodiscard]] bool contains(TriangleId t) const {
+        return t != kNoTriangle && marks_[t] == mark_;
+    }
+
+    /// \return true if it was not in the set
+    bool insert(TriangleId t) { return std::exchange(marks_[t], mark_) != mark_; }
+
+    void erase(TriangleId t) { marks_[t] = 0; }
+
+private:
+    std::vector<std::uint32_t> marks_;
+    std::uint32_t mark_ = 1;
+};
+
 class FaceSearch {
 public:
     explicit FaceSearch(const Surface& surface)
         : surface_(surface),
           distance_(distance_to(surface)),
-          tried_(surface.triangle_count(), false),
-          seen_(surface.triangle_count(), 0) {
+          tries_(surface.triangle_count(), 0),
+          seen_(surface.triangle_count()),
+          in_(surface.triangle_count()),
+          outside_(surface.triangle_count()) {
         double edges = 0.0;
+        normals_.reserve(surface.triangle_count());
+        sizes_.reserve(surface.triangle_count());
         for (TriangleId t = 0; t < surface.triangle_count(); ++t) {
             normals_.push_back(area_normal(surface.points(), surface.triangles()[t]));
-            edges += std::sqrt(normals_.back().norm());
+            sizes_.push_back(normals_.back().norm());
+            wall_.push_back(surface.patch_of(t).kind == PatchKind::Wall && sizes_.back() > 0.0);
+            edges += std::sqrt(sizes_.back());
         }
         neighbours_ = edge_neighbours(surface.triangles());
         edge_ = edges / static_cast<double>(std::max<std::size_t>(1, normals_.size()));
     }
 
     [[nodiscard]] std::vector<FlatFace> run(const Progress& progress) {
-        constexpr TriangleId kTurn = 1024;
+        LoopProgress seeds(progress, surface_.triangle_count(), "looking for flat faces");
         std::vector<FlatFace> faces;
         for (TriangleId t = 0; t < surface_.triangle_count(); ++t) {
-            if (t % kTurn == 0) progress.check_cancelled();
-            if (tried_[t] || !is_wall(t)) continue;
-            tried_[t] = true;
+            seeds.step();
+            if (!is_seed(t)) continue;
+            tries_[t] = kMostTries;
+            progress.check_cancelled();
             const Vec3 first = mean_normal(grown(t, normals_[t].normalized()));
             const std::vector<TriangleId> region = grown(t, first);
             const Vec3 normal = mean_normal(region);
             const auto face = face_of(region, normal);
             for (const TriangleId r : region)
-                if (face || normals_[r].dot(normal) > kMiddle * normals_[r].norm())
-                    tried_[r] = true;
+                if (face || normals_[r].dot(normal) > kMiddle * sizes_[r])
+                    tries_[r] = kMostTries;
+                else if (tries_[r] < kMostTries)
+                    ++tries_[r];
             if (face && !is_known(*face, faces)) faces.push_back(*face);
         }
         return faces;
     }
 
 private:
-    [[nodiscard]] bool is_wall(TriangleId t) const {
-        return surface_.patch_of(t).kind == PatchKind::Wall && normals_[t].norm() > 0.0;
-    }
+    [[nodiscard]] bool is_seed(TriangleId t) const { return wall_[t] && tries_[t] < kMostTries; }
 
     [[nodiscard]] std::vector<TriangleId> grown(TriangleId seed, const Vec3& normal) {
-        ++visit_;
+        seen_.clear();
+        seen_.insert(seed);
         std::vector<TriangleId> region{seed};
-        seen_[seed] = visit_;
         for (std::size_t i = 0; i < region.size(); ++i)
             for (const TriangleId next : neighbours_[region[i]])
-                if (next != kNoTriangle && seen_[next] != visit_ && is_wall(next) &&
-                    normals_[next].dot(normal) >= kOneFace * normals_[next].norm()) {
-                    seen_[next] = visit_;
+                if (next != kNoTriangle && wall_[next] &&
+                    normals_[next].dot(normal) >= kOneFace * sizes_[next] && seen_.insert(next))
                     region.push_back(next);
-                }
         return region;
     }
 
-    /// Without the fringes and notches of a region's border.
-    [[nodiscard]] std::vector<TriangleId> even(std::vector<TriangleId> region) const {
-        std::set<TriangleId> in(region.begin(), region.end());
-        const auto beside = [&](TriangleId t) {
-            return std::ranges::count_if(neighbours_[t],
-                                         [&](TriangleId next) { return in.contains(next); });
-        };
-        for (int round = 0; round < kRounds; ++round) {
-            std::vector<TriangleId> added, removed;
-            for (const TriangleId t : in) {
-                if (beside(t) < 2) removed.push_back(t);
-                for (const TriangleId next : neighbours_[t])
-                    if (next != kNoTriangle && !in.contains(next) && is_wall(next) &&
-                        beside(next) >= 2)
-                        added.push_back(next);
-            }
-            for (const TriangleId t : removed) in.erase(t);
-            in.insert(added.begin(), added.end());
-        }
-        return {in.begin(), in.end()};
+    /// Neighbours in in_.
+    [[nodiscard]] std::ptrdiff_t inside_beside(TriangleId t) const {
+        return std::ranges::count_if(neighbours_[t],
+                                     [&](TriangleId next) { return in_.contains(next); });
     }
 
-    /// With the holes in a region that are smaller than it.
-    [[nodiscard]] std::vector<TriangleId> filled(std::vector<TriangleId> region) const {
-        std::set<TriangleId> in(region.begin(), region.end());
-        std::set<TriangleId> outside;
-        for (const TriangleId t : region)
-            for (const TriangleId beside : neighbours_[t]) {
-                if (beside == kNoTriangle || in.contains(beside) || outside.contains(beside))
-                    continue;
-                std::vector<TriangleId> part{beside};
-                std::set<TriangleId> seen{beside};
-                for (std::size_t i = 0; i < part.size() && part.size() <= region.size(); ++i)
-                    for (const TriangleId next : neighbours_[part[i]])
-                        if (next != kNoTriangle && !in.contains(next) && seen.insert(next).second)
-                            part.push_back(next);
-                const bool hole = part.size() <= region.size();
-                (hole ? in : outside).insert(part.begin(), part.end());
+    /// Without the fringes and notches of a region's border; ascending.
+    [[nodiscard]] std::vector<TriangleId> even(std::vector<TriangleId> region) {
+        in_.assign(region);
+        for (int round = 0; round < kRounds; ++round) {
+            std::vector<TriangleId> added, removed;
+            for (const TriangleId t : region) {
+                if (inside_beside(t) < 2) removed.push_back(t);
+                for (const TriangleId next : neighbours_[t])
+                    if (next != kNoTriangle && wall_[next] && !in_.contains(next) &&
+                        inside_beside(next) >= 2)
+                        added.push_back(next);
             }
-        return {in.begin(), in.end()};
+            for (const TriangleId t : removed) in_.erase(t);
+            std::erase_if(region, [&](TriangleId t) { return !in_.contains(t); });
+            for (const TriangleId t : added)
+                if (in_.insert(t)) region.push_back(t);
+        }
+        std::ranges::sort(region);
+        return region;
+    }
+
+    /// What is connected beside a region, in_; empty if it is larger than the region, and then part
+    /// of outside_.
+    [[nodiscard]] std::vector<TriangleId> hole_at(TriangleId beside, std::size_t most) {
+        std::vector<TriangleId> part{beside};
+        seen_.clear();
+        seen_.insert(beside);
+        bool open = false;
+        for (std::size_t i = 0; i < part.size() && part.size() <= most && !open; ++i)
+            for (const TriangleId next : neighbours_[part[i]])
+                if (next != kNoTriangle && !in_.contains(next) && seen_.insert(next)) {
+                    open = open || outside_.contains(next);
+                    part.push_back(next);
+                }
+        if (!open && part.size() <= most) return part;
+        for (const TriangleId t : part) outside_.insert(t);
+        return {};
+    }
+
+    /// With the holes in a region that are smaller than it; ascending. in_ has the same.
+    [[nodiscard]] std::vector<TriangleId> filled(std::vector<TriangleId> region) {
+        in_.assign(region);
+        outside_.clear();
+        const std::size_t count = region.size();
+        for (std::size_t i = 0; i < count; ++i)
+            for (const TriangleId beside : neighbours_[region[i]]) {
+                if (beside == kNoTriangle || in_.contains(beside) || outside_.contains(beside))
+                    continue;
+                for (const TriangleId t : hole_at(beside, count)) {
+                    in_.insert(t);
+                    region.push_back(t);
+                }
+            }
+        std::ranges::sort(region);
+        return region;
     }
 
     /// Filled, and where its border touches itself at a vertex, with the triangles around it.
-    [[nodiscard]] std::vector<TriangleId> one_disc(std::vector<TriangleId> region) const {
+    [[nodiscard]] std::vector<TriangleId> one_disc(std::vector<TriangleId> region) {
         for (int round = 0; round < kRounds; ++round) {
             region = filled(std::move(region));
             std::map<VertexId, int> border;  // ends of border edges
             for (const TriangleId t : region)
                 for (std::size_t k = 0; k < 3; ++k)
-                    if (!std::ranges::binary_search(region, neighbours_[t][k]))
+                    if (!in_.contains(neighbours_[t][k]))
                         for (const std::size_t end : {k, (k + 1) % 3})
                             ++border[surface_.triangles()[t][end]];
-            std::set<TriangleId> in(region.begin(), region.end());
+            const std::size_t before = region.size();
             for (const auto& [vertex, ends] : border)
                 if (ends > 2)
                     for (const TriangleId t : surface_.topology->triangles_at().row(vertex))
-                        in.insert(t);
-            if (in.size() == region.size()) break;
-            region.assign(in.begin(), in.end());
+                        if (in_.insert(t)) region.push_back(t);
+            if (region.size() == before) break;
+            std::ranges::sort(region);
         }
         return region;
     }
@@ -176,7 +233,7 @@ private:
     }
 
     [[nodiscard]] std::optional<FlatFace> face_of(const std::vector<TriangleId>& region,
-                                                  const Vec3& normal) const {
+                                                  const Vec3& normal) {
         double area = 0.0;
         Vec3 centre = Vec3::Zero();
         for (const TriangleId t : region) {
@@ -227,9 +284,9 @@ private:
     }
 
     /// True if the vessel ends at the face. \param radius of the face [mm]
-    [[nodiscard]] bool is_plug(const FlatFace& face, double radius) const {
+    [[nodiscard]] bool is_plug(const FlatFace& face, double radius) {
         std::vector<TriangleId> part = face.triangles;
-        std::set<TriangleId> in(part.begin(), part.end());
+        in_.assign(part);
         for (std::size_t i = 0; i < part.size(); ++i) {
             const Vec3 from = middle(part[i]) - face.centre;
             const double height = from.dot(face.normal);
@@ -240,7 +297,7 @@ private:
                 continue;
             }
             for (const TriangleId next : neighbours_[part[i]])
-                if (next != kNoTriangle && in.insert(next).second) part.push_back(next);
+                if (next != kNoTriangle && in_.insert(next)) part.push_back(next);
         }
         return true;
     }
@@ -306,11 +363,12 @@ private:
     const Surface& surface_;
     SurfaceDistance distance_;
     std::vector<Vec3> normals_;  ///< twice the area [mm^2]
+    std::vector<double> sizes_;  ///< of the normals
+    std::vector<std::uint8_t> wall_;
     std::vector<std::array<TriangleId, 3>> neighbours_;
-    std::vector<bool> tried_;
-    std::vector<std::uint32_t> seen_;
-    std::uint32_t visit_ = 0;
-    double edge_ = 0.0;  ///< [mm]
+    std::vector<std::uint8_t> tries_;  ///< regions that are no faces with the triangle in them
+    TriangleSet seen_, in_, outside_;  ///< of one search at a time
+    double edge_ = 0.0;                ///< [mm]
 };
 
 }  // namespace

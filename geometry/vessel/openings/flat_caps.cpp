@@ -1,7 +1,6 @@
 #include "geometry/vessel/openings/flat_caps.h"
 
 #include <algorithm>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,17 +25,23 @@ constexpr double kMostFlat = 0.45;
 /// A disc has at least as many triangles as a hexagon.
 constexpr std::size_t kFewestOfCap = 4;
 
+template <class T>
+std::size_t count_of_different(std::vector<T>& values) {
+    std::ranges::sort(values);
+    return static_cast<std::size_t>(std::ranges::unique(values).begin() - values.begin());
+}
+
 /// True if the triangles, connected along edges, have one simple rim.
 bool is_disc(const Surface& surface, const std::vector<TriangleId>& triangles) {
-    std::set<VertexId> vertices;
-    std::set<std::pair<VertexId, VertexId>> edges;
+    std::vector<VertexId> vertices;
+    std::vector<std::pair<VertexId, VertexId>> edges;
     for (const TriangleId t : triangles)
         for (std::size_t k = 0; k < 3; ++k) {
             const VertexId a = surface.triangles()[t][k], b = surface.triangles()[t][(k + 1) % 3];
-            vertices.insert(a);
-            edges.insert(std::minmax(a, b));
+            vertices.push_back(a);
+            edges.push_back(std::minmax(a, b));
         }
-    return vertices.size() + triangles.size() == edges.size() + 1;
+    return count_of_different(vertices) + triangles.size() == count_of_different(edges) + 1;
 }
 
 enum class RimVertices { Stay, Move };
@@ -90,9 +95,10 @@ bool is_step(const Surface& surface, std::size_t patch) {
 
 }  // namespace
 
-Surface label_flat_caps(const Surface& surface) {
+Surface label_flat_caps(const Surface& surface, const Progress& progress) {
     if (surface.empty() || surface.patches.size() > 1) return surface;
-    const SurfaceDistance distance(surface);
+    progress.report(0.0, "looking for flat caps");
+    const SurfaceDistance distance = distance_to(surface);
     auto [caps, mouths] = find_flat_closures(surface.points(), surface.triangles(), distance);
     const auto is_no_disc = [&](const auto& triangles) { return !is_disc(surface, triangles); };
     std::erase_if(caps, is_no_disc);

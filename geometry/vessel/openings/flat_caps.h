@@ -10,7 +10,8 @@ namespace vesselbench {
 /// a voxel mask's wall has many faces parallel to each of them, another vessel's has hardly any.
 /// Some of a vessel's ends may be capped and the others open.
 /// \return the surface itself if it has openings with names already, or no such caps
-[[nodiscard]] Surface label_flat_caps(const Surface& surface);
+/// \throw Cancelled
+[[nodiscard]] Surface label_flat_caps(const Surface& surface, const Progress& progress = {});
 
 /// Without the patches of a few stray triangles: no plane has cut them.
 [[nodiscard]] Surface without_stray_labels(const Surface& surface);
