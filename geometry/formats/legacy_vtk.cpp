@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "geometry/formats/grid_cells.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/whole_file.h"
 
@@ -76,6 +77,19 @@ public:
         return values;
     }
 
+    /// Texts as VTK writes them: a line each, or in binary files behind their length.
+    std::vector<std::string> texts(std::size_t count, bool binary) {
+        line();  // the rest of the line before them
+        std::vector<std::string> found;
+        for (std::size_t i = 0; i < count && !at_end(); ++i) {
+            const std::size_t length = binary ? text_length() : 0;
+            if (length > bytes_.size() - at_) cut_off("text");
+            found.push_back(binary ? bytes_.substr(at_, length) : line());
+            at_ += length;
+        }
+        return found;
+    }
+
     void skip_metadata() {
         line();
         while (!at_end())
@@ -92,6 +106,19 @@ public:
     }
 
 private:
+    /// The two highest bits of its first byte say how many bytes it has.
+    std::size_t text_length() {
+        constexpr std::size_t kBytes[] = {8, 4, 2, 1};
+        const auto first = static_cast<unsigned char>(bytes_[at_]);
+        const std::size_t size = kBytes[first >> 6U];
+        if (size > bytes_.size() - at_) cut_off("text");
+        std::size_t length = first & 0x3fU;
+        for (std::size_t i = 1; i < size; ++i)
+            length = (length << 8U) | static_cast<unsigned char>(bytes_[at_ + i]);
+        at_ += size;
+        return length;
+    }
+
     [[nodiscard]] TextScanner parser() const {
         return {{}, file_ + ", byte " + std::to_string(at_)};
     }
@@ -139,7 +166,7 @@ struct Cells {
 
 class Reader {
 public:
-    Reader(const std::string& bytes, const std::string& file) : in_(bytes, file) {}
+    Reader(const std::string& bytes, const std::string& file) : in_(bytes, file), file_(file) {}
 
     RawSurface read() {
         read_head();
@@ -149,7 +176,10 @@ public:
             read_section(key);
         }
         if (!has_points_) in_.fail("the file has no POINTS");
-        make_triangles();
+        if (is_grid_)
+            make_surface_of_grid();
+        else
+            make_triangles();
         return std::move(raw_);
     }
 
@@ -159,12 +189,16 @@ private:
         if (first.rfind("# vtk DataFile Version", 0) != 0)
             in_.fail("the file does not start with '# vtk DataFile Version'");
         new_cells_ = first.find("Version 5") != std::string::npos;
-        raw_.unit = stated_unit(in_.line());
+        const std::string title = in_.line();
+        raw_.unit = stated_unit(title);
+        raw_.axes = stated_axes(title);
         const std::string encoding = in_.keyword();
         if (encoding != "ASCII" && encoding != "BINARY") in_.fail("neither ASCII nor BINARY");
         binary_ = encoding == "BINARY";
-        if (in_.keyword() != "DATASET" || in_.keyword() != "POLYDATA")
-            in_.fail("the file contains no surface (DATASET POLYDATA)");
+        const std::string dataset = in_.keyword() == "DATASET" ? in_.keyword() : "";
+        is_grid_ = dataset == "UNSTRUCTURED_GRID";
+        if (!is_grid_ && dataset != "POLYDATA")
+            in_.fail("the file contains no surface (DATASET POLYDATA or UNSTRUCTURED_GRID)");
     }
 
     void read_section(const std::string& key) {
@@ -176,6 +210,10 @@ private:
             polygons_ = read_cells();
         } else if (key == "TRIANGLE_STRIPS") {
             strips_ = read_cells();
+        } else if (key == "CELLS") {
+            grid_ = read_cells();
+        } else if (key == "CELL_TYPES") {
+            types_ = in_.numbers(in_.count("number of cell types"), "int", binary_, "cell type");
         } else if (key == "POINT_DATA" || key == "CELL_DATA") {
             of_points_ = key == "POINT_DATA";
             tuples_ = in_.count("number of values");
@@ -241,7 +279,7 @@ private:
         const std::size_t components = in_.count("number of components");
         const std::size_t tuples = in_.count("number of values");
         const std::string type(in_.word());
-        if (type == "string") in_.fail("arrays of texts are not supported: remove them");
+        if (type == "string") return keep_texts(name, in_.texts(components * tuples, binary_));
         keep(name, components, in_.numbers(components * tuples, type, binary_, "array"));
     }
 
@@ -281,6 +319,13 @@ private:
         return digit == std::string::npos ? 1 : static_cast<std::size_t>(rest[digit] - '0');
     }
 
+    /// 3D Slicer states the axes in such an array.
+    void keep_texts(const std::string& name, const std::vector<std::string>& texts) {
+        if (texts.size() != 1) return;
+        if (name == "SPACE") raw_.axes = axes_named(texts.front());
+        if (name == "Units") raw_.unit = unit_named(texts.front());
+    }
+
     void keep(const std::string& name, std::size_t components, std::vector<double> values) {
         if (components != 1) return;
         if (of_points_ && values.size() == raw_.positions.size())
@@ -312,6 +357,23 @@ private:
                                  " lines or isolated points were ignored");
     }
 
+    void make_surface_of_grid() {
+        if (types_.size() != grid_.count())
+            in_.fail("there are " + std::to_string(grid_.count()) + " cells, but " +
+                     std::to_string(types_.size()) + " types of cells: the file is damaged");
+        GridCells cells;
+        std::vector<VertexId> corners;
+        for (std::size_t i = 0; i < grid_.count(); ++i) {
+            corners_of(grid_, i, corners);
+            if (!(types_[i] >= 0.0 && types_[i] <= 255.0))
+                in_.fail("cell " + std::to_string(i) + " has an unknown type");
+            cells.add(static_cast<std::uint8_t>(types_[i]), corners);
+        }
+        if (parts_.size() == grid_.count())
+            for (const double part : parts_) cells.regions.push_back(static_cast<int>(part));
+        append_grid_surface(cells, file_, raw_);
+    }
+
     void corners_of(const Cells& cells, std::size_t i, std::vector<VertexId>& corners) const {
         const double begin = cells.offsets[i], end = cells.offsets[i + 1];
         if (!(begin >= 0.0 && begin <= end && end <= static_cast<double>(cells.corners.size())))
@@ -334,10 +396,13 @@ private:
 
     Cursor in_;
     RawSurface raw_;
-    Cells polygons_, strips_;
+    std::string file_;
+    Cells polygons_, strips_, grid_;
+    std::vector<double> types_;  ///< of the grid's cells
     std::vector<double> parts_;
     std::size_t other_cells_ = 0, tuples_ = 0;
     bool binary_ = false, new_cells_ = false, of_points_ = false, has_points_ = false;
+    bool is_grid_ = false;
 };
 
 }  // namespace
@@ -347,8 +412,9 @@ RawSurface read_legacy_vtk(const std::string& path) {
     return Reader(bytes, bare_name(path)).read();
 }
 
-bool is_legacy_poly_data(std::string_view head) {
-    return head.find("POLYDATA") != std::string_view::npos;
+bool is_legacy_surface(std::string_view head) {
+    return head.find("POLYDATA") != std::string_view::npos ||
+           head.find("UNSTRUCTURED_GRID") != std::string_view::npos;
 }
 
 }  // namespace vesselbench

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
@@ -13,7 +14,17 @@ namespace vesselbench {
 
 namespace {
 
-constexpr std::array kUnits = {LengthUnit::Millimetre, LengthUnit::Centimetre, LengthUnit::Metre};
+constexpr std::array kUnits = {LengthUnit::Millimetre, LengthUnit::Centimetre, LengthUnit::Metre,
+                               LengthUnit::Micrometre};
+
+/// What files call them, beside their symbols; the micro sign and the Greek letter look alike.
+constexpr std::pair<std::string_view, LengthUnit> kNames[] = {
+    {"millimeter", LengthUnit::Millimetre}, {"millimetre", LengthUnit::Millimetre},
+    {"centimeter", LengthUnit::Centimetre}, {"centimetre", LengthUnit::Centimetre},
+    {"meter", LengthUnit::Metre},           {"metre", LengthUnit::Metre},
+    {"micrometer", LengthUnit::Micrometre}, {"micrometre", LengthUnit::Micrometre},
+    {"micron", LengthUnit::Micrometre},     {"\xc2\xb5m", LengthUnit::Micrometre},
+    {"\xce\xbcm", LengthUnit::Micrometre}};
 
 /// Ranges for models of vessels [mm]: typical radius from an intracranial artery to an atrium, the
 /// thinnest lumen resolved by images, the widest valve of a heart, the extent from the smallest
@@ -27,6 +38,8 @@ constexpr double kThinnestOpening = 0.5;
 constexpr double kWidestOpening = 25.0;
 constexpr double kSmallestExtent = 6.0;
 constexpr double kLargestExtent = 1000.0;
+/// What is larger is no vessel: such a reading loses against any other (in natural logarithms).
+constexpr double kNoVessel = 20.0;
 /// Root of the wall's area: a heart, or both lungs' arteries, have 0.1 m^2.
 constexpr double kLargestSide = 450.0;
 
@@ -97,6 +110,7 @@ double implausibility(const Figures& figures, double factor) {
            too_large(factor * figures.mouth, kWidestOpening) +
            too_small(factor * figures.extent, kSmallestExtent) +
            too_large(factor * figures.extent, kLargestExtent) +
+           (factor * figures.extent > kLargestExtent ? kNoVessel : 0.0) +
            too_large(factor * figures.side, kLargestSide);
 }
 
@@ -116,24 +130,51 @@ std::string to_string(LengthUnit unit) {
             return "cm";
         case LengthUnit::Metre:
             return "m";
+        case LengthUnit::Micrometre:
+            return "um";
         default:
             return "mm";
     }
 }
 
+std::optional<LengthUnit> unit_named(std::string_view name) {
+    std::string lower = lower_case(name);
+    for (const LengthUnit unit : kUnits)
+        if (lower == to_string(unit)) return unit;
+    if (lower.ends_with('s')) lower.pop_back();
+    for (const auto& [known, unit] : kNames)
+        if (lower == known) return unit;
+    return std::nullopt;
+}
+
 LengthUnit length_unit_from(const std::string& text) {
     for (const LengthUnit unit : kUnits)
         if (text == to_string(unit)) return unit;
-    throw UsageError("'" + text + "' is not a unit of length: use mm, cm or m");
+    throw UsageError("'" + text + "' is not a unit of length: use mm, cm, m or um");
 }
 
 double millimetres_per(LengthUnit unit) {
-    return unit == LengthUnit::Metre ? 1000.0 : unit == LengthUnit::Centimetre ? 10.0 : 1.0;
+    switch (unit) {
+        case LengthUnit::Centimetre:
+            return 10.0;
+        case LengthUnit::Metre:
+            return 1000.0;
+        case LengthUnit::Micrometre:
+            return 1e-3;
+        default:
+            return 1.0;
+    }
+}
+
+bool is_vessel_sized(const Surface& surface) {
+    constexpr double kSmallestExcerpt = 1.0;  // [mm]
+    const double extent = bounds(surface).diagonal();
+    return extent >= kSmallestExcerpt && extent <= kLargestExtent;
 }
 
 UnitGuess guess_length_unit(const Surface& surface, LengthUnit usual) {
     const Figures figures = figures_of(surface);
-    std::array<double, 3> off{};
+    std::array<double, kUnits.size()> off{};
     for (std::size_t i = 0; i < kUnits.size(); ++i)
         off[i] = implausibility(figures, millimetres_per(kUnits[i])) +
                  (kUnits[i] == usual ? 0.0 : kInFavourOfUsual);

@@ -14,7 +14,9 @@ class Reader {
 public:
     Reader(const std::string& text, const std::string& file)
         : scan_(text, file), lines_(static_cast<std::size_t>(0)) {
-        raw_.unit = stated_unit(std::string_view(text).substr(0, 1000));
+        const std::string_view head = std::string_view(text).substr(0, 1000);
+        raw_.unit = stated_unit(head);
+        raw_.axes = stated_axes(head);
     }
 
     RawSurface read() {

@@ -52,6 +52,7 @@ struct Header {
     std::size_t size = 0;   ///< bytes
     std::size_t lines = 0;  ///< of the header
     std::optional<LengthUnit> unit;
+    std::optional<PatientAxes> axes;
     std::map<int, std::string> part_names;
 };
 
@@ -64,6 +65,7 @@ Type type_of(TextScanner& scan) {
 
 void read_comment(TextScanner& scan, Header& header) {
     if (const auto unit = stated_unit(scan.whole_line())) header.unit = unit;
+    if (const auto axes = stated_axes(scan.whole_line())) header.axes = axes;
     if (scan.word() != "patch") return;
     const std::string id(scan.word()), name(scan.word());
     if (!name.empty()) header.part_names[static_cast<int>(scan.parse_integer(id, "patch"))] = name;
@@ -227,6 +229,7 @@ public:
 
     RawSurface read() {
         raw_.unit = header_.unit;
+        raw_.axes = header_.axes;
         raw_.part_names = header_.part_names;
         for (const Element& element : header_.elements) {
             if (element.properties.empty() && element.count > 0)

@@ -1,5 +1,6 @@
 #include "geometry/formats/raw_surface.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <numeric>
@@ -47,12 +48,12 @@ std::optional<LengthUnit> stated_unit(std::string_view text) {
     if (at == std::string_view::npos) return std::nullopt;
     text.remove_prefix(at + 6);
     text.remove_prefix(std::min(text.find_first_not_of(kBlank), text.size()));
-    const std::string_view word =
-        text.substr(0, text.find_first_not_of("abcdefghijklmnopqrstuvwxyz"));
-    for (const LengthUnit unit :
-         {LengthUnit::Millimetre, LengthUnit::Centimetre, LengthUnit::Metre})
-        if (word == to_string(unit)) return unit;
-    return std::nullopt;
+    const auto is_of_word = [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+               (static_cast<unsigned char>(c) & 0x80U) != 0;
+    };
+    const auto end = std::ranges::find_if_not(text, is_of_word);
+    return unit_named(text.substr(0, static_cast<std::size_t>(end - text.begin())));
 }
 
 void append_polygon(const Positions& positions, const std::vector<VertexId>& polygon,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geometry/formats/length_unit.h"
+#include "geometry/formats/patient_axes.h"
 #include "geometry/kernel/surface.h"
 
 namespace vesselbench {
@@ -21,6 +22,7 @@ struct RawSurface {
     std::map<std::string, std::vector<double>> attributes;  ///< each #V
     std::optional<LengthUnit> unit;                         ///< if the file states it
     std::optional<LengthUnit> usual_unit;                   ///< of the program that wrote the file
+    std::optional<PatientAxes> axes;                        ///< if the file states them
     std::vector<std::string> notes;                         ///< ignored data, for the report
 };
 

@@ -9,6 +9,7 @@
 #include "geometry/kernel/point_welder.h"
 #include "geometry/kernel/printable.h"
 #include "geometry/kernel/whole_file.h"
+#include "geometry/kernel/wording.h"
 
 namespace vesselbench {
 
@@ -35,7 +36,9 @@ std::uint32_t stated_count(const std::string& bytes) {
 RawSurface read_binary(const std::string& bytes, const std::string& file) {
     const std::size_t count = stated_count(bytes);
     RawSurface raw;
-    raw.unit = stated_unit(std::string_view(bytes).substr(0, kCountAt));
+    const std::string_view header = std::string_view(bytes).substr(0, kCountAt);
+    raw.unit = stated_unit(header);
+    raw.axes = stated_axes(header);
     raw.triangles.reserve(count);
     PointWelder welder(count / 2 + 16);
     for (std::size_t t = 0; t < count; ++t) {
@@ -61,7 +64,7 @@ public:
 
     RawSurface read() {
         while (scan_.next_line('\0')) {
-            const std::string_view word = scan_.word();
+            const std::string word = keyword();
             if (word == "solid")
                 begin_solid();
             else if (word == "facet")
@@ -69,7 +72,7 @@ public:
             else if (word == "endsolid")
                 in_solid_ = false;
             else
-                scan_.fail("'" + std::string(word.substr(0, 40)) +
+                scan_.fail("'" + word.substr(0, 40) +
                            "' found instead of solid, facet or endsolid");
         }
         if (in_solid_)
@@ -90,6 +93,7 @@ private:
             name += (name.empty() ? "" : " ") + std::string(word);
         raw_.part_names[solid_] = name;
         if (const auto unit = stated_unit(name)) raw_.unit = unit;
+        if (const auto axes = stated_axes(name)) raw_.axes = axes;
     }
 
     void read_facet() {
@@ -107,14 +111,20 @@ private:
         raw_.part_ids.push_back(solid_);
     }
 
-    void expect(const char* keyword) {
+    void expect(const char* wanted) {
         if (!scan_.next_line('\0'))
-            scan_.fail(std::string("the file ends where '") + keyword +
+            scan_.fail(std::string("the file ends where '") + wanted +
                        "' is expected: it is truncated; copy or download it again");
-        const std::string_view word = scan_.word();
-        if (word != keyword)
-            scan_.fail("'" + std::string(word.substr(0, 40)) + "' found instead of '" + keyword +
-                       "'");
+        const std::string word = keyword();
+        if (word != wanted)
+            scan_.fail("'" + word.substr(0, 40) + "' found instead of '" + wanted + "'");
+    }
+
+    /// The line's first word as the format spells it: some write capitals, or "end loop".
+    std::string keyword() {
+        std::string word = lower_case(scan_.word());
+        if (word == "end") word += lower_case(scan_.word());
+        return word;
     }
 
     TextScanner scan_;
@@ -144,7 +154,7 @@ std::string header_text(const std::string& provenance) {
 }
 
 bool looks_like_text(const std::string& bytes) {
-    return beginning_of(bytes, 5) == "solid" && is_text(bytes);
+    return lower_case(beginning_of(bytes, 5)) == "solid" && is_text(bytes);
 }
 
 }  // namespace

@@ -11,11 +11,23 @@ namespace vesselbench {
 
 namespace {
 
-void scale(Surface& surface, double factor) {
-    if (factor == 1.0) return;
+/// \param factors of x, y and z
+void scale(Surface& surface, const Vec3& factors) {
+    if (factors == Vec3::Ones()) return;
     Positions scaled = surface.points();
-    for (Vec3& p : scaled) p *= factor;
+    for (Vec3& p : scaled) p = p.cwiseProduct(factors);
     surface = surface.with_positions(std::move(scaled));
+}
+
+/// The axes that the surface is read in, which a note says if they are not ours.
+PatientAxes axes_of(const RawSurface& raw, std::optional<PatientAxes> given,
+                    std::vector<std::string>& notes) {
+    const PatientAxes axes = given.value_or(raw.axes.value_or(PatientAxes::Lps));
+    if (axes == PatientAxes::Ras)
+        notes.push_back(std::string("the coordinates are RAS (") +
+                        (given ? "given" : "stated in the file") +
+                        "): x and y were turned to LPS, as images have them");
+    return axes;
 }
 
 }  // namespace
@@ -25,7 +37,8 @@ bool holds_surface(const std::string& path) {
     return format && content_fits(*format, path);
 }
 
-SurfaceFile read_surface(const std::string& path, std::optional<LengthUnit> unit) {
+SurfaceFile read_surface(const std::string& path, std::optional<LengthUnit> unit,
+                         std::optional<PatientAxes> axes) {
     refuse_special_file(path);
     const SurfaceFormat* format = row_that_reads(surface_formats(), path);
     if (!format)
@@ -38,6 +51,7 @@ SurfaceFile read_surface(const std::string& path, std::optional<LengthUnit> unit
                            ": export it again as a surface");
     SurfaceFile file;
     file.notes = raw.notes;
+    file.axes = axes_of(raw, axes, file.notes);
     const std::optional<LengthUnit> stated = raw.unit;
     const LengthUnit usual = raw.usual_unit.value_or(LengthUnit::Millimetre);
     file.surface = surface_from(std::move(raw), file.notes);
@@ -53,7 +67,8 @@ SurfaceFile read_surface(const std::string& path, std::optional<LengthUnit> unit
         file.unit_reason = guess.reason;
         file.unit_doubt = guess.doubt;
     }
-    scale(file.surface, millimetres_per(file.unit));
+    const double sign = file.axes == PatientAxes::Ras ? -1.0 : 1.0;
+    scale(file.surface, millimetres_per(file.unit) * Vec3(sign, sign, 1.0));
     return file;
 }
 

@@ -6,6 +6,7 @@
 #include "geometry/formats/ply.h"
 #include "geometry/formats/stl.h"
 #include "geometry/formats/vtp.h"
+#include "geometry/formats/vtu.h"
 
 namespace vesselbench {
 
@@ -39,11 +40,16 @@ const std::vector<SurfaceFormat>& surface_formats() {
           .content = "double precision, with patches and attributes"},
          read_vtp,
          write_vtp},
+        {{.name = "VTU",
+          .kind = Surface,
+          .suffixes = {".vtu"},
+          .content = "surface of an unstructured grid"},
+         read_vtu_surface},
         {{.name = "VTK",
           .kind = Surface,
           .suffixes = {".vtk"},
-          .content = "legacy poly data",
-          .sniff = is_legacy_poly_data},
+          .content = "legacy poly data or unstructured grid",
+          .sniff = is_legacy_surface},
          read_legacy_vtk}};
     return rows;
 }

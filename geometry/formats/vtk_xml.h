@@ -3,6 +3,7 @@
 #include <string>
 
 class vtkPolyData;
+class vtkUnstructuredGrid;
 template <class T>
 class vtkSmartPointer;
 
@@ -12,5 +13,8 @@ namespace vesselbench {
 /// printed.
 /// \throw InvalidInput if VTK reports an error
 [[nodiscard]] vtkSmartPointer<vtkPolyData> read_poly_data(const std::string& path);
+
+/// The same for an unstructured grid.
+[[nodiscard]] vtkSmartPointer<vtkUnstructuredGrid> read_unstructured_grid(const std::string& path);
 
 }  // namespace vesselbench

@@ -70,8 +70,9 @@ public:
 
     void check_counts() const {
         for (const VtkXmlElement& element : elements_) {
-            for (const char* key : {"NumberOfPoints", "NumberOfVerts", "NumberOfLines",
-                                    "NumberOfStrips", "NumberOfPolys", "NumberOfTuples"}) {
+            for (const char* key :
+                 {"NumberOfPoints", "NumberOfVerts", "NumberOfLines", "NumberOfStrips",
+                  "NumberOfPolys", "NumberOfCells", "NumberOfTuples"}) {
                 const auto text = attribute(element, key);
                 const auto count = number(text);
                 if (text && (!count || *count / ratio_ > bytes_.size()))
@@ -131,7 +132,7 @@ private:
         if (around && around->name == "PointData") return count("NumberOfPoints");
         if (around && around->name == "CellData")
             return count("NumberOfVerts") + count("NumberOfLines") + count("NumberOfStrips") +
-                   count("NumberOfPolys");
+                   count("NumberOfPolys") + count("NumberOfCells");
         return std::numeric_limits<std::uint64_t>::max();
     }
 

@@ -3,17 +3,13 @@
 #include <new>
 
 #include <vtkCellArray.h>
-#include <vtkCellArrayIterator.h>
-#include <vtkCellData.h>
 #include <vtkDataArray.h>
-#include <vtkFieldData.h>
 #include <vtkIdList.h>
 #include <vtkNew.h>
-#include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
-#include <vtkStringArray.h>
 
+#include "geometry/formats/vtk_arrays.h"
 #include "geometry/formats/vtk_mesh.h"
 #include "geometry/formats/vtk_xml.h"
 #include "geometry/formats/vtk_xml_check.h"
@@ -23,30 +19,6 @@
 namespace vesselbench {
 
 namespace {
-
-RawSurface points_of(vtkPolyData* data, const std::string& file) {
-    RawSurface raw;
-    raw.positions.resize(static_cast<std::size_t>(data->GetNumberOfPoints()));
-    for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i) {
-        Vec3& p = raw.positions[static_cast<std::size_t>(i)];
-        data->GetPoint(i, p.data());
-        if (!p.allFinite())
-            throw InvalidInput(file + ", point " + std::to_string(i) +
-                               ": a coordinate is not finite; the program that wrote the file "
-                               "failed; export it again");
-    }
-    return raw;
-}
-
-/// The cell array that defines parts; none if the file has no known one.
-vtkDataArray* part_array(vtkPolyData* data) {
-    for (const char* name : {"CellEntityIds", kSimVascularFaces})
-        if (vtkDataArray* found = data->GetCellData()->GetArray(name))
-            if (found->GetNumberOfComponents() == 1 &&
-                found->GetNumberOfTuples() == data->GetNumberOfCells())
-                return found;
-    return nullptr;
-}
 
 /// Turns the cells of one kind into triangles. `cell` counts through all cells of the data set.
 class CellReader {
@@ -100,47 +72,6 @@ private:
     vtkNew<vtkIdList> ids_;
 };
 
-/// A cell array with offsets outside its connectivity would make VTK read beyond it.
-void check_cells(vtkCellArray* cells, const std::string& file) {
-    vtkIdType before = 0;
-    const vtkIdType limit = cells->GetNumberOfConnectivityIds();
-    for (vtkIdType i = 0; i <= cells->GetNumberOfCells() && cells->GetNumberOfCells() > 0; ++i) {
-        const auto offset = static_cast<vtkIdType>(cells->GetOffsetsArray()->GetComponent(i, 0));
-        if (offset < before || offset > limit)
-            throw InvalidInput(
-                file + ", cell " + std::to_string(i) +
-                ": its offset in the list of corners is out of range: the file is damaged");
-        before = offset;
-    }
-}
-
-void read_names(vtkPolyData* data, RawSurface& raw) {
-    vtkFieldData* fields = data->GetFieldData();
-    if (auto* names = vtkStringArray::SafeDownCast(fields->GetAbstractArray("PatchNames")))
-        for (vtkIdType i = 0; i < names->GetNumberOfValues(); ++i)
-            raw.part_names[static_cast<int>(i) + 1] = names->GetValue(i);
-    if (auto* unit = vtkStringArray::SafeDownCast(fields->GetAbstractArray("Units")))
-        if (unit->GetNumberOfValues() == 1) raw.unit = stated_unit("UNITS=" + unit->GetValue(0));
-}
-
-void read_attributes(vtkPolyData* data, RawSurface& raw) {
-    vtkPointData* arrays = data->GetPointData();
-    for (int i = 0; i < arrays->GetNumberOfArrays(); ++i) {
-        vtkDataArray* array = arrays->GetArray(i);
-        const char* name = arrays->GetArrayName(i);
-        if (!array || !name || array->GetNumberOfComponents() != 1 ||
-            array->GetNumberOfTuples() != data->GetNumberOfPoints()) {
-            raw.notes.push_back("the point array '" + std::string(name ? name : "") +
-                                "' was ignored (only arrays with one number per point are kept)");
-            continue;
-        }
-        auto& values = raw.attributes[name];
-        values.resize(raw.positions.size());
-        for (std::size_t v = 0; v < values.size(); ++v)
-            values[v] = array->GetComponent(static_cast<vtkIdType>(v), 0);
-    }
-}
-
 RawSurface raw_from(vtkPolyData* data, const std::string& file) {
     RawSurface raw = points_of(data, file);
     for (vtkCellArray* cells : {data->GetPolys(), data->GetStrips()}) check_cells(cells, file);
@@ -151,10 +82,7 @@ RawSurface raw_from(vtkPolyData* data, const std::string& file) {
     reader.strips(data->GetStrips(), polygons + data->GetNumberOfPolys());
     if (polygons > 0)
         raw.notes.push_back(std::to_string(polygons) + " lines or isolated points were ignored");
-    if (data->GetCellData()->HasArray(kSimVascularFaces) != 0)
-        raw.usual_unit = LengthUnit::Centimetre;
-    read_names(data, raw);
-    read_attributes(data, raw);
+    read_arrays(data, raw);
     return raw;
 }
 

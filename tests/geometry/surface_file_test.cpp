@@ -72,7 +72,7 @@ SCENARIO("Legacy VTK files are read, text and binary, old and new", "[geometry][
           Approx(area_normal(strip.surface.points(), strip.surface.triangles()[1]).z()));
     CHECK_THROWS_WITH(read_surface(written("g.vtk",
                                            "# vtk DataFile Version 3.0\nx\nASCII\nDATASET "
-                                           "UNSTRUCTURED_GRID\n")),
+                                           "STRUCTURED_GRID\n")),
                       Catch::Contains("POLYDATA"));
 }
 
@@ -148,6 +148,34 @@ SCENARIO("A text STL truncated at any length is rejected", "[geometry][io]") {
     CHECK(read_surface(written("a.stl", text)).surface.triangle_count() == 3);
     for (std::size_t length = 0; length < text.size() - 10; ++length)
         CHECK_THROWS_AS(read_surface(written("a.stl", text.substr(0, length))), InvalidInput);
+}
+
+SCENARIO("A text STL is read however its program spells it", "[geometry][io]") {
+    const std::string corners = "VERTEX 0 0 0\nvertex 10 0 0\nVertex 0 10 0\n";
+    const auto area_in = [&](const std::string& text) {
+        return area(read_surface(written("a.stl", text), LengthUnit::Millimetre).surface);
+    };
+    CHECK(area_in("SOLID A\nFACET NORMAL 0 0 1\nOUTER LOOP\n" + corners +
+                  "ENDLOOP\nENDFACET\nENDSOLID A\n") == Approx(50.0));
+    CHECK(area_in("solid\nfacet normal nan NaN -nan(ind)\nouter loop\n" + corners +
+                  "end loop\nend facet\nend solid\n") == Approx(50.0));
+}
+
+SCENARIO("Named solids of an STL file are patches", "[geometry][io]") {
+    const auto facet = [](const std::string& corners) {
+        return "facet normal 0 0 1\nouter loop\n" + corners + "endloop\nendfacet\n";
+    };
+    const auto file = read_surface(
+        written("a.stl", "solid wall\n" + facet("vertex 0 0 0\nvertex 10 0 0\nvertex 0 0 10\n") +
+                             facet("vertex 10 0 0\nvertex 0 10 0\nvertex 0 0 10\n") +
+                             facet("vertex 0 10 0\nvertex 0 0 0\nvertex 0 0 10\n") +
+                             "endsolid wall\nsolid inlet\n" +
+                             facet("vertex 0 0 0\nvertex 0 10 0\nvertex 10 0 0\n") +
+                             "endsolid inlet\n"),
+        LengthUnit::Millimetre);
+    CHECK(file.surface.vertex_count() == 4);
+    REQUIRE(file.surface.patches.size() == 2);
+    CHECK(file.surface.patches[1] == Patch{"inlet", PatchKind::Inlet});
 }
 
 SCENARIO("Coordinates that are not finite are refused with their place", "[geometry][io]") {
@@ -228,11 +256,31 @@ SCENARIO("Units are guessed from what a vessel can be, stated or given", "[geome
     for (std::size_t t = 0; t < mixed.size(); t += 2) std::swap(mixed[t][0], mixed[t][1]);
     CHECK(guess_length_unit(make_surface(atrium.points(), mixed)).doubt.empty());
     CHECK_FALSE(doubtful(0.002, 0.02));
+    CHECK(guess(1000.0).unit == LengthUnit::Micrometre);
+    // In cm it would be 1.2 m long, which no vessel is.
+    CHECK_FALSE(doubtful(1.25, 120.0));
     const std::string folder = temporary_folder();
     write_surface(cube(3.0), folder + "/c.vtp");
     CHECK(volume(read_surface(folder + "/c.vtp").surface) == Approx(27.0));
     CHECK(volume(read_surface(folder + "/c.vtp", LengthUnit::Centimetre).surface) ==
           Approx(27000.0));
+}
+
+SCENARIO("Units are known by each of their names", "[geometry][io]") {
+    for (const std::string name :
+         {"um", "\xc2\xb5m", "\xce\xbcm", "micron", "Microns", "micrometers"}) {
+        CAPTURE(name);
+        CHECK(unit_named(name) == LengthUnit::Micrometre);
+        const auto file = read_surface(
+            written("a.obj", "# UNITS=" + name + "\nv 0 0 0\nv 9000 0 0\nv 0 9000 0\nf 1 2 3\n"));
+        CHECK(file.unit == LengthUnit::Micrometre);
+        CHECK(area(file.surface) == Approx(40.5));
+    }
+    CHECK(unit_named("Millimetres") == LengthUnit::Millimetre);
+    CHECK(unit_named("cm") == LengthUnit::Centimetre);
+    CHECK(unit_named("meters") == LengthUnit::Metre);
+    CHECK_FALSE(unit_named("inch"));
+    CHECK_FALSE(unit_named(""));
 }
 
 SCENARIO("A surface with SimVascular's faces is taken to be in cm", "[geometry][io]") {

@@ -66,7 +66,8 @@ void add_measure(CommandLine& line) {
         .add_option("--histogram", options->histogram,
                     "Count the vertices by their distance from the reference, in bins this wide")
         ->type_name("MM");
-    command.add_option("--units", options->units, "Unit of the files: mm, cm or m (default: mm)")
+    command
+        .add_option("--units", options->units, "Unit of the files: mm, cm, m or um (default: mm)")
         ->type_name("UNIT");
     add_json(command, options->json);
 }
@@ -113,7 +114,8 @@ void add_picture(CommandLine& line) {
         ->group("");  // file managers choose names without a suffix
     command.add_flag("--transparent", options->transparent,
                      "Transparent background instead of white; a scale stays on white");
-    command.add_option("--units", options->units, "Unit of the files: mm, cm or m (default: mm)")
+    command
+        .add_option("--units", options->units, "Unit of the files: mm, cm, m or um (default: mm)")
         ->type_name("UNIT");
     add_json(command, options->json);
     command.footer(kPictureFooter);
@@ -139,7 +141,8 @@ void add_subject(CLI::App& command, SubjectOptions& subject) {
                     "Filter of " + filtering + " (default: as in " + filtering + ")")
         ->type_name("NAME");
     command
-        .add_option("--units", subject.units, "Unit of surface files: mm, cm or m (default: mm)")
+        .add_option("--units", subject.units,
+                    "Unit of surface files: mm, cm, m or um (default: mm)")
         ->type_name("UNIT");
 }
 
@@ -217,7 +220,8 @@ void add_centerlines(CommandLine& line) {
                     "Polylines with MaximumInscribedSphereRadius")
         ->required()
         ->type_name("");
-    command.add_option("--units", options->units, "Unit of the file: mm, cm or m (default: mm)")
+    command
+        .add_option("--units", options->units, "Unit of the file: mm, cm, m or um (default: mm)")
         ->type_name("UNIT");
     add_json(command, options->json, "Print nodes and branches as one JSON document");
 }

@@ -51,7 +51,7 @@ void add_input_options(CLI::App& command, InputArguments& input) {
     command
         .add_option(
             "--units", input.units,
-            "Unit of the file: mm, cm or m (default: as stated in it, or the only one in which "
+            "Unit of the file: mm, cm, m or um (default: as stated in it, or the only one in which "
             "it is a vessel)")
         ->type_name("UNIT");
 }

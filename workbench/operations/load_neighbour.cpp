@@ -40,14 +40,22 @@ Outcome load(const Scene& scene, const Arguments& arguments, Progress& progress)
              .remedies = {{.arguments = {{"file", ""}}}, {.arguments = {{"labels", ""}}}}});
     const std::string& name = arguments.text("name");
     Outcome outcome{.scene = scene, .resolved = arguments};
-    Surface neighbour = arguments.has("file") ? read_surface_argument(arguments, outcome).surface
-                                              : surface_of_labels(scene, arguments, progress);
+    bool turned = false;
+    Surface neighbour;
+    if (arguments.has("file")) {
+        SurfaceArgument read = read_surface_argument(arguments, outcome);
+        neighbour = std::move(read.surface);
+        turned = read.turned;
+    } else {
+        neighbour = surface_of_labels(scene, arguments, progress);
+    }
     if (neighbour.empty()) throw InvalidInput("the neighbour's surface has no triangles");
-    outcome.report = std::make_shared<nlohmann::ordered_json>(
-        nlohmann::ordered_json{{"name", name},
-                               {"vertices", neighbour.vertex_count()},
-                               {"triangles", neighbour.triangle_count()},
-                               {"volume_mm3", volume(neighbour)}});
+    nlohmann::ordered_json report = {{"name", name},
+                                     {"vertices", neighbour.vertex_count()},
+                                     {"triangles", neighbour.triangle_count()},
+                                     {"volume_mm3", volume(neighbour)}};
+    if (turned) report["headline"] = "turned from RAS to LPS";
+    outcome.report = std::make_shared<nlohmann::ordered_json>(std::move(report));
     outcome.scene.neighbours[name] = std::move(neighbour);
     return outcome;
 }
@@ -76,7 +84,8 @@ Operation load_neighbour_operation() {
                             .help = "surface of labels, as when one is extracted from an image",
                             .choices = {"smooth", "midway"},
                             .only_with = Condition{"labels"}},
-                           units_parameter()},
+                           units_parameter(),
+                           space_parameter()},
             .run = &load,
             .isolated = true,
             .thesis = "5.2",

@@ -17,6 +17,7 @@ using nlohmann::ordered_json;
 /// The unit, and what the file has and a vessel's surface should not.
 std::string headline_of(const SurfaceArgument& read, std::size_t components, std::size_t loops) {
     std::string text = "read as " + read.units;
+    if (read.turned) text += ", turned from RAS to LPS";
     if (components > 1) text += ", " + counted(components, "part");
     if (loops > 0) text += ", " + counted(loops, "hole or opening", "holes or openings");
     return text;
@@ -31,6 +32,7 @@ ordered_json report_of(const SurfaceArgument& read) {
                            {"file", read.name},
                            {"units", read.units},
                            {"units_reason", read.unit_reason},
+                           {"axes", read.turned ? "RAS, turned to LPS" : "LPS"},
                            {"vertices", surface.vertex_count()},
                            {"triangles", surface.triangle_count()},
                            {"components", components},
@@ -66,7 +68,8 @@ Operation load_surface_operation() {
                             .type = File,
                             .help = "the surface file; its suffix determines the format",
                             .required = true},
-                           units_parameter(Meaning::Unit)},
+                           units_parameter(Meaning::Unit),
+                           space_parameter()},
             .run = &load,
             .isolated = true,
             .thesis = "3.2",

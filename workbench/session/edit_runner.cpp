@@ -12,6 +12,7 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/stopwatch.h"
 #include "geometry/kernel/wording.h"
+#include "workbench/case/former_arguments.h"
 #include "workbench/project/source_files.h"
 #include "workbench/project/stored_text.h"
 #include "workbench/session/surface_change.h"
@@ -98,10 +99,10 @@ bool takes_all_openings(const Operation& operation, const Arguments& given) {
 
 /// What an edit runs with on another input: what it decided before is kept, so that it does again
 /// what the user has seen.
-const Arguments& arguments_again(const Operation& operation, const Arguments& given,
-                                 const ResultRecord* before) {
+Arguments arguments_again(const Operation& operation, const Arguments& given,
+                          const ResultRecord* before) {
     const bool decides = before == nullptr || takes_all_openings(operation, given);
-    return decides ? given : before->resolved;
+    return decides ? given : with_former_arguments(operation, before->resolved);
 }
 
 /// A diagnostic's text without its figures.
@@ -154,7 +155,7 @@ EditRun EditRunner::run_pending(EditRef ref, Scene input, const Progress& progre
     const auto record = earlier != nullptr ? store_->record(earlier->id) : nullptr;
     try {
         const Operation& operation = options_->find(edit.operation);
-        const Arguments& arguments = arguments_again(operation, edit.given, record.get());
+        const Arguments arguments = arguments_again(operation, edit.given, record.get());
         EditRun done = run(operation, input, located(operation, ref, arguments), progress);
         if (!record) return done;
         const auto first = first_result(store_->history(), ref);
@@ -273,7 +274,8 @@ Outcome EditRunner::rerun(const HistoryResult& result, const Progress& progress)
     const EditRecord edit = store_->edit(result.edit);
     const Operation& operation = options_->find(edit.operation);
     const CheckedArguments arguments =
-        located(operation, result.edit, store_->record(result.id)->resolved);
+        located(operation, result.edit,
+                with_former_arguments(operation, store_->record(result.id)->resolved));
     Progress own = progress;
     return run_operation(operation, load(result.input, progress), arguments, own, options_->worker);
 }

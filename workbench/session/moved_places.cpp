@@ -10,7 +10,8 @@ namespace {
 
 /// What parameters of Meaning::Unit can be resolved to [mm].
 double millimetres_in(const std::string& unit) {
-    static const std::map<std::string, double> lengths = {{"mm", 1.0}, {"cm", 10.0}, {"m", 1000.0}};
+    static const std::map<std::string, double> lengths = {
+        {"mm", 1.0}, {"cm", 10.0}, {"m", 1000.0}, {"um", 1e-3}};
     const auto found = lengths.find(unit);
     return found == lengths.end() ? 1.0 : found->second;
 }

@@ -16,32 +16,41 @@ Parameter units_parameter(Meaning meaning) {
             .help =
                 "unit of the file's coordinates; auto: the unit stated in the file, or the only "
                 "one in which it has the size of a vessel; guess: the likeliest one",
-            .choices = {"auto", "guess", "mm", "cm", "m"},
+            .choices = {"auto", "guess", "mm", "cm", "m", "um"},
             .meaning = meaning};
+}
+
+Parameter space_parameter() {
+    return {.name = "space",
+            .type = ParameterType::Choice,
+            .default_value = std::string("stated"),
+            .help =
+                "patient axes of the file's coordinates, which are turned to LPS; stated: "
+                "those that the file states, as 3D Slicer writes them (SPACE=RAS), else lps",
+            .choices = {"stated", "lps", "ras"},
+            .use = Use::Rare};
 }
 
 namespace {
 
-/// A warning if the file's coordinates have a vessel's size in another unit only.
+/// A warning if no vessel is as large as the surface in the given unit, but one is in another.
 std::optional<Diagnostic> unlikely_unit(const SurfaceArgument& read, LengthUnit unit) {
-    if (read.surface.empty()) return std::nullopt;
+    if (read.surface.empty() || is_vessel_sized(read.surface)) return std::nullopt;
     Positions raw = read.surface.points();
     for (Vec3& point : raw) point /= millimetres_per(unit);
-    const Surface in_file = read.surface.with_positions(std::move(raw));
-    const UnitGuess guess = guess_length_unit(in_file);
+    const UnitGuess guess = guess_length_unit(read.surface.with_positions(std::move(raw)));
     if (guess.unit == unit) return std::nullopt;
-    Diagnostic warning{.code = "unit-unlikely",
-                       .words = {{"file", read.name}, {"units", read.units}},
-                       .remedies = {{.arguments = {{"units", to_string(guess.unit)}}}}};
-    if (guess.doubt.empty()) {
-        warning.words["likely"] = to_string(guess.unit);
-        warning.words["reason"] = guess.reason;
-        return warning;
-    }
-    if (guess_length_unit(in_file, unit).unit == unit) return std::nullopt;  // it is possible
-    warning.code = "unit-doubtful";
-    warning.words["doubt"] = guess.doubt;
-    return warning;
+    return Diagnostic{.code = "unit-unlikely",
+                      .words = {{"file", read.name},
+                                {"units", read.units},
+                                {"likely", to_string(guess.unit)},
+                                {"reason", guess.reason}},
+                      .remedies = {{.arguments = {{"units", to_string(guess.unit)}}}}};
+}
+
+/// None: as the file states it.
+std::optional<PatientAxes> given_axes(const Arguments& arguments) {
+    return axes_named(arguments.text("space"));
 }
 
 }  // namespace
@@ -49,14 +58,16 @@ std::optional<Diagnostic> unlikely_unit(const SurfaceArgument& read, LengthUnit 
 SurfaceArgument read_surface_argument(const Arguments& arguments, Outcome& outcome) {
     const std::string path = arguments.text("file"), units = arguments.text("units");
     const bool open = units == "auto" || units == "guess";
-    SurfaceFile file =
-        read_surface(path, open ? std::nullopt : std::optional(length_unit_from(units)));
+    SurfaceFile file = read_surface(
+        path, open ? std::nullopt : std::optional(length_unit_from(units)), given_axes(arguments));
     SurfaceArgument read{.surface = std::move(file.surface),
                          .name = std::filesystem::path(path).filename().string(),
                          .units = to_string(file.unit),
                          .unit_reason = file.unit_reason,
+                         .turned = file.axes == PatientAxes::Ras,
                          .notes = std::move(file.notes)};
     outcome.resolved.set("units", read.units);
+    outcome.resolved.set("space", to_string(file.axes));
     if (!open) {
         auto warning = unlikely_unit(read, file.unit);
         if (warning) outcome.warnings.push_back(std::move(*warning));
