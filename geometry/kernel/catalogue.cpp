@@ -16,11 +16,10 @@ constexpr CatalogueText kTexts[] = {
      "is wrong, give {fix}"},
     {"unit-unlikely",
      "{file} is read in {units}, as asked, but has a vessel's size in {likely} only ({reason})"},
-    {"unit-doubtful", "{file} is read in {units}, as asked, but {doubt}"},
     {"voxels-too-small",
      "the file states no unit and its voxels measure {spacing}: taken as metres; if that is wrong, "
      "give {fix}"},
-    {"unit-in-doubt", "{doubt}: give {fix}, which is mm, cm or m (prepare and new: --units)"},
+    {"unit-in-doubt", "{doubt}: give {fix}, which is mm, cm, m or um (prepare and new: --units)"},
     {"mask-not-labels", "mask: {reason}"},
     {"mask-of-intensities",
      "the mask holds neither labels nor a level set: give {fix}, the value that bounds its inside"},
@@ -71,6 +70,19 @@ constexpr CatalogueText kTexts[] = {
      "the surface has the outer and the inner side of a vessel's wall: the outer one was removed, "
      "since blood flows inside the inner one; to use the outer one, load it from a file of its "
      "own"},
+    {"bodies-united",
+     "{bodies#closed body|closed bodies} that overlap were united; {fix} keeps the largest one "
+     "only"},
+    {"bodies-left-out",
+     "{bodies#body was|bodies were} left out that cannot be a vessel, the largest at {place}; "
+     "{fix} "
+     "takes whatever overlaps as part of the model"},
+    {"body-no-vessel",
+     "a body of the surface cannot be a vessel: the one at {place}, {x_mm} x {y_mm} x {z_mm} mm; "
+     "{fix} leaves it out, {fix2} takes it as part of the model where it overlaps"},
+    {"bodies-not-united",
+     "closed bodies of the surface overlap near {place}, but cannot be united: unite them in the "
+     "program that made them, or rebuild the surface from its image"},
     {"vessel-removed",
      "{pieces#unconnected piece was|unconnected pieces were} removed, the longest of which, at "
      "{place}, is {length_mm} mm long and {diameter_mm} mm wide: a vessel; {fix} keeps it"},
@@ -680,7 +692,10 @@ constexpr CatalogueText kTexts[] = {
      "the volume changed by {volume_percent:%.1f} %: fewer {fix}, or {fix2}, keep it"},
     {"volume-lost",
      "it would remove {volume_percent:%.0f} % of the volume: the triangles are too coarse for the "
-     "vessel; make them finer with {fix}"},
+     "vessel; {fix} leaves it out"},
+    {"fewer-iterations",
+     "{before} iterations would remove {volume_percent:%.0f} % of the volume, since the triangles "
+     "are coarse for the vessel: {iterations#iteration was|iterations were} made"},
     {"recipe-unusable",
      "the case's recipe cannot be used, and the usual one is used instead: {reason}"},
     {"read-in-another-unit",

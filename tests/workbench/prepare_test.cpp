@@ -816,16 +816,27 @@ SCENARIO("A phantom does not replace another case", "[workbench][prepare]") {
 
 SCENARIO("A surface too coarse to be smoothed is no model", "[workbench][prepare]") {
     const std::string folder = temporary_folder(), out = folder + "/out";
-    write_surface(closed_tube(2.5, 25.0, 6, 3), folder + "/tube.stl");
+    write_surface(cube(20.0), folder + "/cube.stl");
     for (const std::string purpose : {"cfd", "rp"}) {
         const ProgramRun result =
-            run({"prepare", folder + "/tube.stl", "--units", "mm", "--for", purpose, "--out",
+            run({"prepare", folder + "/cube.stl", "--units", "mm", "--for", purpose, "--out",
                  out + purpose, "--set", "repair.caps=false"});
         INFO(result.err);
         CHECK(result.exit_code == 1);
-        CHECK_THAT(result.err, Contains("too coarse") && Contains("subdivide"));
+        CHECK_THAT(result.err, Contains("too coarse") && Contains("smooth.iterations=0"));
         CHECK_THAT(run({"log", out + purpose + "/project.vbench"}).out, !Contains("smoothing"));
     }
+}
+
+SCENARIO("A coarse surface is smoothed less, which is said", "[workbench][prepare]") {
+    const std::string folder = temporary_folder(), out = folder + "/out";
+    write_surface(closed_tube(2.5, 25.0, 6, 3), folder + "/tube.stl");
+    const ProgramRun result = run({"prepare", folder + "/tube.stl", "--units", "mm", "--for", "cfd",
+                                   "--out", out, "--set", "repair.caps=false"});
+    INFO(result.err);
+    CHECK_THAT(result.err,
+               Contains("5 iterations would remove") && Contains("1 iteration was made"));
+    CHECK_THAT(result.err, !Contains("too coarse"));
 }
 
 namespace {

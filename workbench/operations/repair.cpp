@@ -8,6 +8,7 @@
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/openings/flat_caps.h"
 #include "workbench/case/point_json.h"
+#include "workbench/operations/shared/bodies.h"
 #include "workbench/operations/shared/handle_warnings.h"
 #include "workbench/operations/table.h"
 
@@ -127,33 +128,54 @@ std::vector<Diagnostic> warnings_of(const RepairReport& report, const Surface& b
     return warnings;
 }
 
-void add_caps(ordered_json& report, std::size_t caps) {
-    report["flat_caps"] = caps;
-    if (caps == 0) return;
+void add_to_headline(ordered_json& report, const std::string& text) {
     std::string headline = report["headline"];
     if (!headline.empty()) headline += ", ";
-    report["headline"] = headline + counted(caps, "flat cap") + " found";
+    report["headline"] = headline + text;
+}
+
+void add_caps(ordered_json& report, std::size_t caps) {
+    report["flat_caps"] = caps;
+    if (caps > 0) add_to_headline(report, counted(caps, "flat cap") + " found");
+}
+
+void add_bodies(ordered_json& report, const SettledBodies& bodies) {
+    if (bodies.united > 0) {
+        report["united_bodies"] = bodies.united;
+        report["changed"] = true;
+        add_to_headline(report, counted(bodies.united, "body", "bodies") + " united with others");
+    }
+    if (bodies.no_vessels > 0) {
+        report["bodies_left_out"] = bodies.no_vessels;
+        report["changed"] = true;
+        add_to_headline(report, counted(bodies.no_vessels, "body", "bodies") + " left out");
+    }
 }
 
 /// Caps are found on surfaces of files only: an image's surface has its own where the image ends.
 Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) {
-    const Surface& surface = surface_of(scene);
     RepairParameters parameters;
     parameters.close_holes_up_to = arguments.optional_real("close_holes_up_to");
     parameters.keep_components = static_cast<std::size_t>(arguments.integer("keep_components"));
     parameters.remove_self_intersections = arguments.flag("self_intersections");
     parameters.smallest_feature = arguments.real("smallest_feature");
-    Repaired repaired = repair(surface, parameters, progress);
+    const SettledBodies bodies =
+        settled_bodies(scene, arguments.text("bodies"), progress.part(0.0, 0.1));
+    Repaired repaired = repair(bodies.surface, parameters, progress.part(0.1, 0.6));
     Outcome outcome;
     outcome.resolved = arguments;
     ordered_json report = report_json(repaired.report);
-    outcome.warnings =
-        warnings_of(repaired.report, surface, parameters.close_holes_up_to.has_value());
+    add_bodies(report, bodies);
+    outcome.warnings = bodies.warnings;
+    for (Diagnostic& warning :
+         warnings_of(repaired.report, bodies.surface, parameters.close_holes_up_to.has_value()))
+        outcome.warnings.push_back(std::move(warning));
     if (arguments.flag("caps")) {
         repaired.surface = without_stray_labels(repaired.surface);
         const std::size_t before = repaired.surface.patches.size();
-        if (!scene.image) repaired.surface = label_flat_caps(repaired.surface);
-        repaired.surface = label_flat_faces(repaired.surface, progress.silent());
+        if (!scene.image)
+            repaired.surface = label_flat_caps(repaired.surface, progress.part(0.6, 0.7));
+        repaired.surface = label_flat_faces(repaired.surface, progress.part(0.7, 1.0));
         add_caps(report, repaired.surface.patches.size() - before);
     }
     if (!scene.image)  // of an image, extract-surface has named them
@@ -189,6 +211,7 @@ Operation repair_operation() {
               .help = "number of unconnected pieces to keep, in descending order of area; 1 keeps "
                       "the inner side of a wall that has two",
               .minimum = 1},
+             bodies_parameter(),
              {.name = "self_intersections",
               .type = Flag,
               .default_value = true,

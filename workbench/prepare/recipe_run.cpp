@@ -31,18 +31,22 @@ constexpr double kNoticedChange = 0.03;
 /// Where one takes more of it than this [-], the model is another one.
 constexpr double kLargestLoss = 0.25;
 
-/// \throw AlgorithmFailure if an operation that keeps the volume took much of it; the edit is
-/// undone
-void require_volume(Session& session, const LogEntry& entry) {
+/// Where its passes are made fewer, so many of them that it takes no more than this [-].
+constexpr double kGoodLoss = 0.1;
+
+/// The fraction of the volume [-] that an operation which keeps it took.
+double lost_volume(const LogEntry& entry) {
     if (find_operation(entry.edit.operation).recipe.volume_remedies.empty() || !entry.result)
-        return;
-    const auto change = volume_change(entry.result->change);
-    if (!change || *change >= -kLargestLoss) return;
-    session.undo();
-    throw DiagnosedFailure({.code = "volume-lost",
-                            .operation = entry.edit.operation,
-                            .figures = {{"volume_percent", -100.0 * *change}},
-                            .remedies = {{.operation = "subdivide"}}});
+        return 0.0;
+    return -volume_change(entry.result->change).value_or(0.0);
+}
+
+constexpr const char* kIterations = "iterations";
+
+/// Passes of an edit; 0: it has none.
+std::int64_t iterations_of(const LogEntry& entry) {
+    const Arguments& ran = entry.result->resolved;
+    return ran.has(kIterations) ? ran.integer(kIterations) : 0;
 }
 
 /// \throw UnusableSource if there is nothing that a model could be made of
@@ -121,14 +125,49 @@ private:
         for (const Diagnostic& warning : warnings_of(entry)) tell_.warn(warning);
     }
 
+    /// The edit, which is told of; on triangles too coarse for it, with so few passes that it keeps
+    /// the volume. \throw AlgorithmFailure if none does; the edit is undone
+    LogEntry applied(RecipeEntry entry, const Progress& progress) const {
+        std::optional<Diagnostic> warning;
+        for (;;) {
+            LogEntry done =
+                session_.apply(entry.given, {.step = entry.step, .variant = variant_}, progress);
+            const double lost = lost_volume(done);
+            const std::int64_t iterations = iterations_of(done);
+            const bool last = iterations <= 1 && lost <= kLargestLoss;
+            if (last || lost <= (warning ? kGoodLoss : kLargestLoss)) {
+                tell_(entry_text(done));
+                if (warning) warn_of(std::move(*warning), entry, done);
+                return done;
+            }
+            session_.undo();
+            if (iterations <= 1)
+                throw DiagnosedFailure({.code = "volume-lost",
+                                        .operation = done.edit.operation,
+                                        .figures = {{"volume_percent", 100.0 * lost}},
+                                        .remedies = {{.arguments = {{kIterations, "0"}}}}});
+            if (!warning)
+                warning = Diagnostic{.code = "fewer-iterations",
+                                     .operation = done.edit.operation,
+                                     .figures = {{"before", static_cast<double>(iterations)},
+                                                 {"volume_percent", 100.0 * lost}}};
+            warning->figures["iterations"] = static_cast<double>(iterations / 2);
+            entry.given.set(kIterations, iterations / 2);
+        }
+    }
+
+    void warn_of(Diagnostic warning, const RecipeEntry& entry, const LogEntry& done) const {
+        warning.edit = done.edit.edit.id;
+        tell_.warn(warning);
+        note({done.edit.operation, step_of(entry), done.edit.edit, std::move(warning),
+              own_variant(entry)});
+    }
+
     /// \return none: it was skipped
     std::optional<LogEntry> made(const RecipeEntry& entry, const Progress& progress) {
         const Operation& operation = entry.given.operation();
         try {
-            const LogEntry done =
-                session_.apply(entry.given, {.step = entry.step, .variant = variant_}, progress);
-            require_volume(session_, done);
-            tell_(entry_text(done));
+            const LogEntry done = applied(entry, progress);
             if (operation.recipe.proves_source) require_vessel(session_, done);
             tell_warnings(done);
             return done;

@@ -34,6 +34,8 @@ void restore_manifold(TriangleSoup& mesh, const RepairParameters& parameters,
     make_manifold(mesh, false, report);
     keep_largest_components(mesh, parameters.keep_components, report);
     face_outward(mesh, report);
+    // The inner side of a wall faces its cavity: that is no fault of the surface.
+    if (report.removed_outer_wall) report.turned_inside_out = false;
     for (int closing = 0; closing < kMostClosings; ++closing) {
         if (!close_stray_holes(mesh, parameters, report)) break;
         make_manifold(mesh, false, report);
