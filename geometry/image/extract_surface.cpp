@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <utility>
 
+#include "geometry/image/border_grazes.h"
 #include "geometry/image/clean_image.h"
 #include "geometry/image/iso_surface.h"
+#include "geometry/image/missing_voxels.h"
 #include "geometry/image/resample.h"
 #include "geometry/image/separating_field.h"
 #include "geometry/image/shells.h"
+#include "geometry/image/voxel_band.h"
+#include "geometry/image/voxel_chains.h"
 #include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
@@ -128,6 +132,36 @@ struct Field {
     double iso = 0.0;
 };
 
+Vec3 place_of(const Image& mask, std::size_t voxel) {
+    const auto n = static_cast<std::size_t>(mask.size[0]),
+               m = static_cast<std::size_t>(mask.size[1]);
+    return mask.to_patient(Vec3(static_cast<double>(voxel % n), static_cast<double>(voxel / n % m),
+                                static_cast<double>(voxel / n / m)));
+}
+
+/// \param fill missing voxels: nobody said how far to close the mask
+Field lumen_field(const Image& mask, bool fill, Extraction& result, const Progress& progress) {
+    KeptLumen& kept = *result.lumen;
+    Image whole = mask;
+    if (fill) {
+        const FilledMask filled = without_missing_voxels(whole);
+        const auto before = std::ranges::count_if(*mask.voxels, is_inside);
+        kept.closing = filled.closing;
+        kept.loops = filled.before.tunnels() + filled.before.cavities;
+        kept.filled =
+            before > 0 ? static_cast<double>(filled.added) / static_cast<double>(before) : 0.0;
+        whole = filled.mask;
+    }
+    progress.check_cancelled();
+    JoinedMask joined = joined_chains(whole);
+    kept.joined = joined.added;
+    const std::vector<std::size_t> chain = chain_voxels(joined.mask);
+    kept.chain = chain.size();
+    if (!chain.empty()) kept.place = place_of(whole, chain[chain.size() / 2]);
+    progress.check_cancelled();
+    return {with_voxel_width(joined.mask, separating_field(joined.mask, progress)), 0.0};
+}
+
 Field label_field(const Image& labels, const ExtractionParameters& parameters, Extraction& result,
                   const Progress& progress) {
     const auto there = labels_of(labels);
@@ -140,7 +174,12 @@ Field label_field(const Image& labels, const ExtractionParameters& parameters, E
         }
     result.labels = parameters.labels.empty() ? there : parameters.labels;
     const Cleaning& cleaning = parameters.cleaning;
-    const Image mask = mask_of_labels(labels, parameters.labels);
+    Image mask = mask_of_labels(labels, parameters.labels);
+    if (parameters.mask_surface == MaskSurface::Lumen) {
+        FreedMask freed = without_grazes(mask);
+        mask = std::move(freed.mask);
+        result.lumen.emplace().grazes = freed.grazes;
+    }
     if (wants_topology(parameters)) result.before = voxel_topology(mask, kMaskIso);
     progress.check_cancelled();
     Field field{cleaned_mask(mask, cleaning), kMaskIso};
@@ -150,6 +189,8 @@ Field label_field(const Image& labels, const ExtractionParameters& parameters, E
     result.mask_surface = parameters.mask_surface;
     if (parameters.mask_surface == MaskSurface::Smooth)
         field = {separating_field(field.image, progress), 0.0};
+    else if (parameters.mask_surface == MaskSurface::Lumen)
+        field = lumen_field(field.image, cleaning.closing == 0, result, progress);
     field.image = gaussian(field.image, cleaning.gaussian);
     return field;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -27,7 +28,11 @@ enum class ExtractionMethod {
 /// Where the surface of a mask or of labels lies between the voxels.
 enum class MaskSurface {
     Midway,  ///< midway between voxel centres: keeps all staircases
-    Smooth   ///< where it bends least (separating_field.h): no staircases, the same topology
+    Smooth,  ///< where it bends least (separating_field.h): no staircases, the same topology
+    /// As smooth, but no vessel is narrower than its voxels, or broken where they touch at edges
+    /// and corners only (voxel_chains.h), missing voxels are filled (missing_voxels.h), and none
+    /// ends where its wall touches the image's border (border_grazes.h).
+    Lumen
 };
 
 /// Cleaning of the image (thesis 3.2.3), in this order; 0 skips a step.
@@ -64,6 +69,17 @@ struct ExtractionParameters {
     bool with_topology = true;  ///< finds Extraction::before and after
 };
 
+/// What a mask needed for its lumen (MaskSurface::Lumen).
+struct KeptLumen {
+    std::size_t grazes = 0;     ///< places where its wall touches the image's border
+    int closing = 0;            ///< radius of the closing that filled missing voxels [voxels]
+    double filled = 0.0;        ///< [-] voxels that it added, of those before
+    std::int64_t loops = 0;     ///< before it
+    std::size_t joined = 0;     ///< voxels added between those that touch at edges and corners
+    std::size_t chain = 0;      ///< voxels at which a vessel is one voxel wide
+    Vec3 place = Vec3::Zero();  ///< of the middle one of these [mm]
+};
+
 /// A surface, and the decisions and findings on the way.
 struct Extraction {
     Surface surface;    ///< closed, outward, [mm]; flat closures at the border are patches cut_1...
@@ -72,6 +88,7 @@ struct Extraction {
     double threshold = 0.0;
     bool inside_below = false;
     MaskSurface mask_surface = MaskSurface::Midway;
+    std::optional<KeptLumen> lumen;
     std::vector<int> labels;              ///< that are inside
     std::optional<double> contrast;       ///< of the diffusion, if it ran
     std::optional<WallLevels> levels;     ///< that took the threshold's place

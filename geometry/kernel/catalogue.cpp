@@ -44,6 +44,20 @@ constexpr CatalogueText kTexts[] = {
     {"body-dropped",
      "there are {bodies#body|bodies}; the largest one dropped has {dropped_mm3:%g} mm^3 (kept: "
      "{kept_mm3:%g}): choose another one with {fix}, or keep all with {fix2}"},
+    {"wall-touches-border",
+     "the mask's wall touches the image's border at {places#place}, where no vessel ends, as where "
+     "a segment was cropped to its own box: it is closed smoothly there; {fix} closes it flat"},
+    {"missing-voxels-filled",
+     "the mask was full of holes ({loops#loop} and cavities): they were closed, which added "
+     "{voxels_percent:%.1f} % of its voxels; {fix} says how far it is closed, and {fix2} leaves it "
+     "as it is"},
+    {"voxels-joined",
+     "{voxels#voxel was|voxels were} added where a vessel's voxels touch at edges or corners only; "
+     "{fix} leaves it apart there"},
+    {"width-below-voxels",
+     "a vessel is a single voxel wide at {voxels#voxel}, as near {place}: it is there, but the mask "
+     "does not say how wide it is below two voxels ({width_mm} mm); there it got the section of a "
+     "voxel"},
     {"cleaning-changed-topology", "cleaning changed the topology: {before} became {after}"},
     {"vessel-leaves-image",
      "the vessel leaves the image at {places#place}; it is closed by flat caps there (patches "
@@ -534,6 +548,13 @@ constexpr CatalogueText kTexts[] = {
     {"vessel-within-noise",
      "there is no vessel in it that can be distinguished from noise: the surface has "
      "{loops#loop}; choose another threshold ({fix}), or add a mask ({fix2})"},
+    {"mask-within-noise",
+     "there is no vessel in the mask that can be distinguished from noise: its surface has "
+     "{loops#loop}, and no closing of up to 3 voxels mends it; segment the vessel anew, or fill the "
+     "segment's holes in the program that made it"},
+    {"surface-within-noise",
+     "there is no vessel in it that can be distinguished from noise: the surface has "
+     "{loops#loop}; make it anew from its image, with another threshold or a mask"},
     {"no-branch-at-tip", "no branch has its tip near {place}"},
     {"branch-without-parent",
      "the vessel with its tip at {place} has no parent vessel: nothing would remain"},

@@ -123,6 +123,10 @@ Report report_of(const Extraction& extraction) {
                    {"largest_dropped_mm3", extraction.largest_dropped},
                    {"cuts_at_border", cuts_of(surface)}});
     if (extraction.levels) report["levels"] = json_of(*extraction.levels);
+    if (const auto& lumen = extraction.lumen)
+        report["lumen"] = {{"grazes", lumen->grazes},        {"closing_voxels", lumen->closing},
+                           {"loops_before", lumen->loops},   {"filled_share", lumen->filled},
+                           {"joined_voxels", lumen->joined}, {"one_voxel_wide", lumen->chain}};
     if (extraction.before) {
         report["topology_before_cleaning"] = json_of(*extraction.before);
         report["topology_after_cleaning"] = json_of(*extraction.after);
@@ -181,8 +185,36 @@ std::string text_of(const VoxelTopology& t) {
            counted(t.cavities, "cavity", "cavities");
 }
 
+/// Of a mask: what was added to it, and where it does not say how wide a vessel is.
+void add_lumen(const Extraction& extraction, std::vector<Diagnostic>& warnings) {
+    const auto& lumen = extraction.lumen;
+    if (!lumen) return;
+    if (lumen->grazes > 0)
+        warnings.push_back({.code = "wall-touches-border",
+                            .figures = {{"places", static_cast<double>(lumen->grazes)}},
+                            .remedies = {{.arguments = {{"mask_surface", "smooth"}}}}});
+    if (lumen->closing > 0)
+        warnings.push_back(
+            {.code = "missing-voxels-filled",
+             .figures = {{"loops", static_cast<double>(lumen->loops)},
+                         {"voxels_percent", 100.0 * lumen->filled}},
+             .remedies = {{.arguments = {{"closing", std::to_string(lumen->closing)}}},
+                          {.arguments = {{"mask_surface", "smooth"}}}}});
+    if (lumen->joined > 0)
+        warnings.push_back({.code = "voxels-joined",
+                            .figures = {{"voxels", static_cast<double>(lumen->joined)}},
+                            .remedies = {{.arguments = {{"mask_surface", "smooth"}}}}});
+    if (lumen->chain > 0)
+        warnings.push_back(
+            {.code = "width-below-voxels",
+             .place = lumen->place,
+             .figures = {{"voxels", static_cast<double>(lumen->chain)},
+                         {"width_mm", 2.0 * extraction.sampling.spacing.minCoeff()}}});
+}
+
 std::vector<Diagnostic> warnings_of(const Extraction& extraction) {
     std::vector<Diagnostic> warnings = thin_warnings(extraction);
+    add_lumen(extraction, warnings);
     add_dropped(extraction, warnings);
     if (extraction.before && !(*extraction.before == *extraction.after))
         warnings.push_back({.code = "cleaning-changed-topology",
@@ -329,9 +361,12 @@ std::vector<Parameter> label_parameters() {
         {.name = "mask_surface",
          .type = Choice,
          .default_value = "smooth",
-         .help = "surface of labels: smooth, where it bends least with every voxel on its side, or "
-                 "midway between voxels, with their staircases",
-         .choices = {"smooth", "midway"},
+         .help =
+             "surface of labels: smooth, where it bends least with every voxel on its side; "
+             "lumen, the same, but no narrower than the voxels, whole where they touch at edges "
+             "and corners only, with missing voxels filled, and closed where its wall touches "
+             "the image's border; or midway between voxels, with their staircases",
+         .choices = {"smooth", "lumen", "midway"},
          .only_with = Condition{"method", {"auto", "labels"}}},
         {.name = "dilation",
          .type = Integer,

@@ -49,10 +49,21 @@ std::int64_t iterations_of(const LogEntry& entry) {
     return ran.has(kIterations) ? ran.integer(kIterations) : 0;
 }
 
+/// What the model's surface was made from.
+SurfaceSource source_of(const Session& session) {
+    for (const LogEntry& entry : session.log()) {
+        if (entry.edit.operation != "extract-surface" || !entry.result) continue;
+        const std::string& method = entry.result->resolved.text("method");
+        return method == "labels" || method == "wall" ? SurfaceSource::Mask
+                                                      : SurfaceSource::Intensities;
+    }
+    return SurfaceSource::File;
+}
+
 /// \throw UnusableSource if there is nothing that a model could be made of
 void require_vessel(Session& session, const LogEntry& entry) {
     try {
-        require_lumen(surface_of(session.scene_after(entry.edit.edit.id)));
+        require_lumen(surface_of(session.scene_after(entry.edit.edit.id)), source_of(session));
     } catch (const InvalidInput& error) {
         throw UnusableSource(error.what());
     }

@@ -10,18 +10,8 @@ namespace vesselbench {
 
 namespace {
 
-/// Closer to another end it is a part of it, as a corner of an oblique cap is [diameters of the
-/// end, and of the stub].
-constexpr double kSameEnd = 1.0;
-constexpr double kCorner = 3.0;
 /// A point this far from a stub's tip does not mean it [lengths of the stub].
 constexpr double kFarthest = 2.0;
-
-bool is_part_of(const Stub& stub, const SurfaceEnd& end, const CenterlineGraph& graph) {
-    const Vec3& at = end.tip ? graph.nodes[*end.tip].position : end.centre;
-    return std::min((at - stub.tip).norm(), (end.centre - stub.tip).norm()) <
-           std::min(kSameEnd * std::max(end.diameter, end.closure), kCorner * 2.0 * stub.widest);
-}
 
 }  // namespace
 
@@ -29,7 +19,9 @@ std::vector<Stub> stubs_apart(const std::vector<Stub>& stubs, const CenterlineGr
                               const std::vector<SurfaceEnd>& ends) {
     std::vector<Stub> apart;
     for (const Stub& stub : stubs)
-        if (std::ranges::none_of(ends, [&](const auto& e) { return is_part_of(stub, e, graph); }))
+        if (std::ranges::none_of(ends, [&](const SurfaceEnd& end) {
+                return is_corner_of(end, graph, stub.tip, stub.widest);
+            }))
             apart.push_back(stub);
     return apart;
 }

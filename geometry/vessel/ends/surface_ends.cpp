@@ -4,6 +4,7 @@
 #include <limits>
 #include <numbers>
 #include <set>
+#include <span>
 
 #include "geometry/editing/editable_surface.h"
 #include "geometry/editing/hole_filling.h"
@@ -32,6 +33,9 @@ constexpr double kAsWide = 1.1;
 constexpr int kSections = 20;
 /// A stub is shorter than this many of its parent's diameters.
 constexpr double kStubShare = 1.0;
+/// Closer to another end it is a part of it [diameters of the end, and of the tip's branch].
+constexpr double kSameEnd = 1.0;
+constexpr double kCorner = 3.0;
 
 std::vector<SurfaceEnd> visible_ends(const Surface& surface) {
     std::vector<SurfaceEnd> ends;
@@ -99,6 +103,15 @@ VertexId nearest_vertex(const Surface& surface, const Vec3& point) {
     return best;
 }
 
+/// A short branch into a corner of an end that is visible, and has a line of its own.
+bool is_corner(std::span<const SurfaceEnd> ends, const CenterlineGraph& graph, std::size_t tip) {
+    const auto blind = blind_branch(graph, tip);
+    return blind && blind->is_stub() && std::ranges::any_of(ends, [&](const SurfaceEnd& end) {
+               return end.is_visible() && end.tip &&
+                      is_corner_of(end, graph, graph.nodes[tip].position, blind->widest);
+           });
+}
+
 /// Radius of a branch beyond the furcation at `node` [mm].
 double radius_beyond(const CenterlineGraph& graph, std::size_t branch, std::size_t node) {
     const double zone = furcation_zone_end(graph, branch, node);
@@ -146,8 +159,11 @@ std::vector<SurfaceEnd> find_surface_ends(const Surface& surface, const Centerli
             taken.insert(*end.tip);
             end.diameter = 2.0 * tip_radius(graph, *end.tip);
         }
+    const std::size_t visible = ends.size();
     for (std::size_t n = 0; n < graph.nodes.size(); ++n) {
-        if (!graph.nodes[n].is_tip() || taken.contains(n)) continue;
+        if (!graph.nodes[n].is_tip() || taken.contains(n) ||
+            is_corner(std::span(ends).first(visible), graph, n))
+            continue;
         ends.push_back({.centre = graph.nodes[n].position,
                         .diameter = 2.0 * tip_radius(graph, n),
                         .patch = std::nullopt,
@@ -156,6 +172,13 @@ std::vector<SurfaceEnd> find_surface_ends(const Surface& surface, const Centerli
                         .vertex = nearest_vertex(surface, graph.nodes[n].position)});
     }
     return ends;
+}
+
+bool is_corner_of(const SurfaceEnd& end, const CenterlineGraph& graph, const Vec3& tip,
+                  double widest) {
+    const Vec3& at = end.tip ? graph.nodes[*end.tip].position : end.centre;
+    return std::min((at - tip).norm(), (end.centre - tip).norm()) <
+           std::min(kSameEnd * std::max(end.diameter, end.closure), kCorner * 2.0 * widest);
 }
 
 std::optional<std::size_t> end_near(const std::vector<SurfaceEnd>& ends, const Vec3& point) {

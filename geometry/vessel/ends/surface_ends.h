@@ -25,9 +25,15 @@ struct SurfaceEnd {
     [[nodiscard]] bool is_visible() const { return patch || !rim.empty(); }
 };
 
-/// All ends: open borders, caps, then the tips that belong to none of them.
+/// All ends: open borders, caps, then the tips that belong to none of them. A branch no longer than
+/// its parent is wide whose tip is a corner of a border or cap is no end of its own.
 [[nodiscard]] std::vector<SurfaceEnd> find_surface_ends(const Surface& surface,
                                                         const CenterlineGraph& graph);
+
+/// True for a tip so near to an end that it is a part of it, as a corner of an oblique or ragged
+/// one is. \param widest radius of the branch that ends there [mm]
+[[nodiscard]] bool is_corner_of(const SurfaceEnd& end, const CenterlineGraph& graph,
+                                const Vec3& tip, double widest);
 
 /// The end nearest to a point; empty if there is none within 4 of its radii.
 [[nodiscard]] std::optional<std::size_t> end_near(const std::vector<SurfaceEnd>& ends,

@@ -33,6 +33,21 @@ bool is_tube(const CenterlineGraph& graph, std::size_t index) {
     return widest > 0.0 && to - from > kShortestTube * 2.0 * widest;
 }
 
+Diagnostic noise(double loops, SurfaceSource source) {
+    switch (source) {
+        case SurfaceSource::Mask:
+            return {.code = "mask-within-noise", .figures = {{"loops", loops}}};
+        case SurfaceSource::File:
+            return {.code = "surface-within-noise", .figures = {{"loops", loops}}};
+        case SurfaceSource::Intensities:
+            break;
+    }
+    return {.code = "vessel-within-noise",
+            .figures = {{"loops", loops}},
+            .remedies = {{.operation = "extract-surface", .arguments = {{"threshold", ""}}},
+                         {.operation = "load-image", .arguments = {{"mask", ""}}}}};
+}
+
 }  // namespace
 
 double closed_volume(const Surface& surface) {
@@ -51,7 +66,7 @@ double closed_volume(const Surface& surface) {
     return std::abs(volume);
 }
 
-void require_lumen(const Surface& surface) {
+void require_lumen(const Surface& surface, SurfaceSource source) {
     if (surface.empty()) return;
     const double extent = bounds(surface).diagonal();
     const double radius = 2.0 * closed_volume(surface) / area(surface);
@@ -61,11 +76,7 @@ void require_lumen(const Surface& surface) {
     const auto loops = connectivity(*surface.topology).genus.value_or(0);
     if (loops > static_cast<int>(kMostLoops) &&
         static_cast<std::size_t>(loops) * kTrianglesPerLoop > surface.triangle_count())
-        throw DiagnosedInput(
-            {.code = "vessel-within-noise",
-             .figures = {{"loops", static_cast<double>(loops)}},
-             .remedies = {{.operation = "extract-surface", .arguments = {{"threshold", ""}}},
-                          {.operation = "load-image", .arguments = {{"mask", ""}}}}});
+        throw DiagnosedInput(noise(static_cast<double>(loops), source));
 }
 
 bool has_tube(const CenterlineGraph& graph) {

@@ -16,6 +16,11 @@ std::optional<ExtractionMethod> method_from(const Arguments& arguments) {
     return std::nullopt;
 }
 
+MaskSurface mask_surface_from(const std::string& name) {
+    if (name == "smooth") return MaskSurface::Smooth;
+    return name == "lumen" ? MaskSurface::Lumen : MaskSurface::Midway;
+}
+
 std::vector<int> labels_from(const Arguments& arguments) {
     std::vector<int> labels;
     if (!arguments.has("labels")) return labels;
@@ -53,7 +58,7 @@ ExtractionParameters extraction_parameters(const Arguments& arguments, bool with
     parameters.labels = labels_from(arguments);
     const bool labels_alone = !parameters.labels.empty() && !parameters.threshold && !with_mask;
     if (labels_alone && !parameters.method) parameters.method = ExtractionMethod::Labels;
-    if (arguments.text("mask_surface") == "smooth") parameters.mask_surface = MaskSurface::Smooth;
+    parameters.mask_surface = mask_surface_from(arguments.text("mask_surface"));
     parameters.dilation = static_cast<int>(arguments.integer("dilation"));
     parameters.cleaning = cleaning_from(arguments);
     parameters.resample = arguments.optional_real("resample");

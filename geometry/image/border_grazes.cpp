@@ -1,0 +1,156 @@
+#include "geometry/image/border_grazes.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "geometry/image/voxel_band.h"
+
+namespace vesselbench {
+
+namespace {
+
+using Index = std::array<int, 3>;
+
+/// Layers behind the border in which a wall that touches it has spread.
+constexpr int kBehind = 2;
+/// Its section there over that at the border, within some voxels to the sides [-].
+constexpr double kSpread = 1.6;
+constexpr int kReach = 3;
+
+/// The voxels of a layer parallel to a side of the image.
+class Layer {
+public:
+    /// \param side 2 a, 2 a + 1: at the start and the end of axis a \param behind [voxels]
+    Layer(const Image& mask, int side, int behind)
+        : mask_(mask),
+          axis_(static_cast<std::size_t>(side / 2)),
+          u_((axis_ + 1) % 3),
+          v_((axis_ + 2) % 3),
+          at_(side % 2 == 0 ? behind : mask.size[axis_] - 1 - behind) {}
+
+    [[nodiscard]] int width() const { return mask_.size[u_]; }
+
+    [[nodiscard]] int height() const { return mask_.size[v_]; }
+
+    [[nodiscard]] std::size_t place(int u, int v) const {
+        return static_cast<std::size_t>(v) * static_cast<std::size_t>(width()) +
+               static_cast<std::size_t>(u);
+    }
+
+    [[nodiscard]] bool is_in(int u, int v) const {
+        if (u < 0 || v < 0 || u >= width() || v >= height()) return false;
+        Index at{};
+        at[axis_] = at_;
+        at[u_] = u;
+        at[v_] = v;
+        return is_inside(mask_.at(at[0], at[1], at[2]));
+    }
+
+private:
+    const Image& mask_;
+    std::size_t axis_, u_, v_;
+    int at_;
+};
+
+/// Calls visit(u, v) for the places at most `reach` from one.
+template <class Visit>
+void around(std::pair<int, int> at, int reach, const Visit& visit) {
+    for (int v = at.second - reach; v <= at.second + reach; ++v)
+        for (int u = at.first - reach; u <= at.first + reach; ++u) visit(u, v);
+}
+
+/// The connected contact at a place; its voxels are marked as seen.
+std::vector<std::pair<int, int>> contact_at(const Layer& border, std::pair<int, int> first,
+                                            std::vector<std::uint8_t>& seen) {
+    std::vector<std::pair<int, int>> contact = {first};
+    seen[border.place(first.first, first.second)] = 1;
+    for (std::size_t i = 0; i < contact.size(); ++i)
+        around(contact[i], 1, [&](int u, int v) {
+            if (!border.is_in(u, v) || seen[border.place(u, v)] != 0) return;
+            seen[border.place(u, v)] = 1;
+            contact.emplace_back(u, v);
+        });
+    return contact;
+}
+
+bool is_graze(const std::vector<std::pair<int, int>>& contact, const Layer& behind) {
+    std::vector<std::uint8_t> seen(static_cast<std::size_t>(behind.width()) *
+                                   static_cast<std::size_t>(behind.height()));
+    std::size_t section = 0;
+    for (const auto& at : contact)
+        around(at, kReach, [&](int u, int v) {
+            if (!behind.is_in(u, v) || std::exchange(seen[behind.place(u, v)], 1) != 0) return;
+            ++section;
+        });
+    return static_cast<double>(section) > kSpread * static_cast<double>(contact.size());
+}
+
+/// By place in a side's layer: 1 where a wall touches it.
+struct Grazes {
+    std::vector<std::uint8_t> touched;
+    std::size_t count = 0;
+};
+
+Grazes grazes_of(const Image& mask, int side) {
+    const Layer border(mask, side, 0), behind(mask, side, kBehind);
+    Grazes grazes;
+    std::vector<std::uint8_t> seen(static_cast<std::size_t>(border.width()) *
+                                   static_cast<std::size_t>(border.height()));
+    grazes.touched = seen;
+    if (mask.size[static_cast<std::size_t>(side / 2)] <= 2 * kBehind) return grazes;
+    for (int v = 0; v < border.height(); ++v)
+        for (int u = 0; u < border.width(); ++u) {
+            if (!border.is_in(u, v) || seen[border.place(u, v)] != 0) continue;
+            const auto contact = contact_at(border, {u, v}, seen);
+            if (!is_graze(contact, behind)) continue;
+            ++grazes.count;
+            for (const auto& at : contact) grazes.touched[border.place(at.first, at.second)] = 1;
+        }
+    return grazes;
+}
+
+/// The mask with a voxel around it: outside where a wall touches the border, else as the border.
+Image with_border(const Image& mask, const std::array<Grazes, 6>& grazes) {
+    Image wider = mask;
+    for (int& size : wider.size) size += 2;
+    wider.index_to_patient.topRightCorner<3, 1>() = mask.to_patient(Vec3::Constant(-1.0));
+    const auto value = [&](const Index& at) {
+        Index nearest = at;
+        for (std::size_t a = 0; a < 3; ++a)
+            nearest[a] = std::min(std::max(at[a], 0), mask.size[a] - 1);
+        for (std::size_t a = 0; a < 3; ++a) {
+            if (nearest[a] == at[a]) continue;
+            const std::size_t side = 2 * a + (at[a] < 0 ? 0 : 1), u = (a + 1) % 3, v = (a + 2) % 3;
+            const Layer border(mask, static_cast<int>(side), 0);
+            if (grazes[side].touched[border.place(nearest[u], nearest[v])] != 0) return 0.0f;
+        }
+        return mask.at(nearest[0], nearest[1], nearest[2]);
+    };
+    std::vector<float> voxels;
+    voxels.reserve(wider.voxel_count());
+    for (int k = -1; k <= mask.size[2]; ++k)
+        for (int j = -1; j <= mask.size[1]; ++j)
+            for (int i = -1; i <= mask.size[0]; ++i) voxels.push_back(value({i, j, k}));
+    wider.voxels = std::make_shared<const std::vector<float>>(std::move(voxels));
+    return wider;
+}
+
+}  // namespace
+
+FreedMask without_grazes(const Image& mask) {
+    std::array<Grazes, 6> grazes;
+    FreedMask freed{.mask = mask};
+    for (int side = 0; side < 6; ++side) {
+        grazes[static_cast<std::size_t>(side)] = grazes_of(mask, side);
+        freed.grazes += grazes[static_cast<std::size_t>(side)].count;
+    }
+    if (freed.grazes > 0) freed.mask = with_border(mask, grazes);
+    return freed;
+}
+
+}  // namespace vesselbench
