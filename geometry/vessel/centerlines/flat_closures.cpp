@@ -95,22 +95,20 @@ public:
 
     /// \param turn cosine of the angle by which the wall turns away at the rim
     bool closes_vessel(const std::vector<TriangleId>& region, double turn,
-                       const SurfaceDistance& surface) const {
+                       const SurfaceDistance& surface) {
         return is_disc(region, turn) && lumen_behind(region, surface) < kWidestLumen;
     }
 
     /// True if it is round and bounded by a sharp rim.
-    bool is_disc(const std::vector<TriangleId>& region, double turn) const {
+    bool is_disc(const std::vector<TriangleId>& region, double turn) {
         const auto [centre, normal, area] = disc_of(region);
+        mark(region);
         double rim = 0.0;
         double sharp = 0.0;
         for (const TriangleId t : region) {
             for (std::size_t k = 0; k < 3; ++k) {
                 const TriangleId other = near_[t][k];
-                if (other != kNoTriangle &&
-                    std::binary_search(region.begin(), region.end(), other)) {
-                    continue;
-                }
+                if (other != kNoTriangle && visited_[other] == visit_) continue;
                 const double length =
                     (points_[triangles_[t][(k + 1) % 3]] - points_[triangles_[t][k]]).norm();
                 rim += length;
@@ -161,7 +159,7 @@ public:
     }
 
     /// True if a part between creases is a disc of which only the rim is flat.
-    bool is_dented_disc(const std::vector<TriangleId>& part) const {
+    bool is_dented_disc(const std::vector<TriangleId>& part) {
         if (part.size() < kOnKnob) return false;
         const bool sharp = is_disc(part, kRim) && has_flat_rim(part, kFlatRim);
         if (!sharp && !(is_disc(part, kPlanarRim) && has_flat_rim(part, kCutRim))) return false;
@@ -251,6 +249,12 @@ private:
         return disc;
     }
 
+    /// Makes a region what was visited last.
+    void mark(const std::vector<TriangleId>& region) {
+        ++visit_;
+        for (const TriangleId t : region) visited_[t] = visit_;
+    }
+
     /// What is connected with a region in a disc's plane.
     std::vector<TriangleId> within(const Disc& disc, std::vector<TriangleId> region) {
         const double height = kFlatDisc * std::sqrt(disc.area / std::numbers::pi);
@@ -260,8 +264,7 @@ private:
                 return std::abs((points_[v] - disc.centre).dot(disc.normal)) <= height;
             });
         };
-        ++visit_;
-        for (const TriangleId t : region) visited_[t] = visit_;
+        mark(region);
         for (std::size_t i = 0; i < region.size(); ++i)
             for (const TriangleId t : near_[region[i]])
                 if (t != kNoTriangle && visited_[t] != visit_ && lies_in(t)) {
@@ -284,7 +287,7 @@ private:
 /// Adds closures and mouths that are not flat, but whose sharp rims are. A dome's rim is none: the
 /// wall turns inward at the neck of an aneurysm.
 /// \param found by triangle: in a closure; on return also in one of those added
-void add_dented_discs(const Search& search, const SurfaceDistance& surface, FlatDiscs& discs,
+void add_dented_discs(Search& search, const SurfaceDistance& surface, FlatDiscs& discs,
                       std::vector<bool>& found) {
     std::vector<bool> taken = found;
     for (const auto& mouth : discs.mouths)
