@@ -52,10 +52,10 @@ constexpr double kJustInside = 1e-3;  // mean edges
 
 constexpr int kRounds = 3;
 
-/// A triangle that was in so many regions that are no faces is no seed of another one: a smooth
-/// wall has fewer around each triangle, whatever its triangles' size, but the rim of a large flat
-/// place, or a rough one, would grow the same region once a triangle.
-constexpr std::uint8_t kMostTries = 64;
+/// A triangle is no seed if the regions around it that are no faces have so many triangles
+/// together: the rim of a large flat place would grow the same region once a triangle. Regions of a
+/// few thousand triangles are grown from each seed.
+constexpr std::uint32_t kMostGrown = 1U << 22U;
 
 /// A set of triangles that is emptied at once.
 class TriangleSet {
@@ -88,7 +88,7 @@ public:
     explicit FaceSearch(const Surface& surface)
         : surface_(surface),
           distance_(distance_to(surface)),
-          tries_(surface.triangle_count(), 0),
+          grown_(surface.triangle_count(), 0),
           seen_(surface.triangle_count()),
           in_(surface.triangle_count()),
           outside_(surface.triangle_count()) {
@@ -111,24 +111,25 @@ public:
         for (TriangleId t = 0; t < surface_.triangle_count(); ++t) {
             seeds.step();
             if (!is_seed(t)) continue;
-            tries_[t] = kMostTries;
+            grown_[t] = kMostGrown;
             progress.check_cancelled();
             const Vec3 first = mean_normal(grown(t, normals_[t].normalized()));
             const std::vector<TriangleId> region = grown(t, first);
             const Vec3 normal = mean_normal(region);
             const auto face = face_of(region, normal);
+            const auto size = static_cast<std::uint32_t>(region.size());
             for (const TriangleId r : region)
                 if (face || normals_[r].dot(normal) > kMiddle * sizes_[r])
-                    tries_[r] = kMostTries;
-                else if (tries_[r] < kMostTries)
-                    ++tries_[r];
+                    grown_[r] = kMostGrown;
+                else if (grown_[r] < kMostGrown)
+                    grown_[r] += std::min(size, kMostGrown);
             if (face && !is_known(*face, faces)) faces.push_back(*face);
         }
         return faces;
     }
 
 private:
-    [[nodiscard]] bool is_seed(TriangleId t) const { return wall_[t] && tries_[t] < kMostTries; }
+    [[nodiscard]] bool is_seed(TriangleId t) const { return wall_[t] && grown_[t] < kMostGrown; }
 
     [[nodiscard]] std::vector<TriangleId> grown(TriangleId seed, const Vec3& normal) {
         seen_.clear();
@@ -366,9 +367,9 @@ private:
     std::vector<double> sizes_;  ///< of the normals
     std::vector<std::uint8_t> wall_;
     std::vector<std::array<TriangleId, 3>> neighbours_;
-    std::vector<std::uint8_t> tries_;  ///< regions that are no faces with the triangle in them
-    TriangleSet seen_, in_, outside_;  ///< of one search at a time
-    double edge_ = 0.0;                ///< [mm]
+    std::vector<std::uint32_t> grown_;  ///< triangles of regions around it that are no faces
+    TriangleSet seen_, in_, outside_;   ///< of one search at a time
+    double edge_ = 0.0;                 ///< [mm]
 };
 
 }  // namespace
