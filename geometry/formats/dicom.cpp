@@ -232,12 +232,32 @@ Frames frames_of(const gdcm::ImageReader& reader, const std::string& name) {
     return frames;
 }
 
+/// Segmentations are no images of intensities: they state regions in their own ways.
+/// \throw InvalidInput if the file is one
+void refuse_segmentation(const gdcm::DataSet& set, const std::string& name) {
+    const std::string kind = text_of(element(set, 0x0008, 0x0016));  // SOP class
+    const bool contours = kind == "1.2.840.10008.5.1.4.1.1.481.3";
+    if (!contours && kind != "1.2.840.10008.5.1.4.1.1.66.4" &&
+        kind != "1.2.840.10008.5.1.4.1.1.66.5")
+        return;
+    const std::string module = contours ? "SlicerRT" : "QuantitativeReporting";
+    bad_file(
+        name,
+        std::string("it is a DICOM segmentation (") +
+            (contours ? "RTSTRUCT, contours of a treatment plan" : "SEG") + "), which is not read",
+        "load it with its image in 3D Slicer (extension " + module +
+            "), and export it by Segmentations, Export to files, as labelmap in NRRD or NIfTI, "
+            "or save it as .seg.nrrd: give that file as INPUT, or as --mask of the image");
+}
+
 Frames read_frames(const std::string& path) {
     const GdcmMessages messages;
     const std::string name = bare_name(path);
     gdcm::ImageReader reader;
     reader.SetFileName(path.c_str());
-    if (!reader.Read())
+    const bool is_read = reader.Read();
+    refuse_segmentation(reader.GetFile().GetDataSet(), name);
+    if (!is_read)
         bad_file(name, "it is not a readable DICOM image (damaged, truncated, or without pixels)",
                  "copy or export it again");
     if (messages.tell_of_truncation())

@@ -8,6 +8,7 @@
 #include <gdcmImageWriter.h>
 #include <gdcmMediaStorage.h>
 #include <gdcmUIDGenerator.h>
+#include <gdcmWriter.h>
 
 #include "geometry/formats/dicom.h"
 #include "geometry/formats/image_file.h"
@@ -125,6 +126,36 @@ SCENARIO("A DICOM slice that announces more pixels than it holds is refused",
     const std::string folder = write_series(oblique_series());
     announce_size(folder, 40000);
     CHECK_THAT(message_of(folder), Contains("its header announces 3200000000 bytes"));
+}
+
+/// A DICOM file of another kind, by its SOP class, without pixels.
+std::string write_object(const char* sop_class, const std::string& name) {
+    gdcm::Writer writer;
+    gdcm::File& file = writer.GetFile();
+    file.GetHeader().SetDataSetTransferSyntax(gdcm::TransferSyntax::ExplicitVRLittleEndian);
+    gdcm::DataSet& set = file.GetDataSet();
+    set_text<0x0008, 0x0016>(set, sop_class);
+    set_text<0x0008, 0x0018>(set, gdcm::UIDGenerator().Generate());
+    const std::string path = temporary_folder() + "/" + name;
+    writer.SetFileName(path.c_str());
+    REQUIRE(writer.Write());
+    return path;
+}
+
+SCENARIO("DICOM segmentations are refused with the way through 3D Slicer",
+         "[images][dicom][labels][bad-input]") {
+    for (const auto& [sop_class, kind] : {std::pair{"1.2.840.10008.5.1.4.1.1.481.3", "RTSTRUCT"},
+                                          {"1.2.840.10008.5.1.4.1.1.66.4", "SEG"}}) {
+        const std::string message = message_of(write_object(sop_class, "object.dcm"));
+        CHECK_THAT(message, Contains("object.dcm") && Contains(kind) && Contains("3D Slicer") &&
+                                Contains("labelmap") && Contains("--mask"));
+    }
+    GIVEN("one among the slices of its image") {
+        const std::string folder = write_series(oblique_series());
+        std::filesystem::copy(write_object("1.2.840.10008.5.1.4.1.1.481.3", "contours.dcm"),
+                              folder + "/contours.dcm");
+        CHECK_THAT(message_of(folder), Contains("contours.dcm") && Contains("RTSTRUCT"));
+    }
 }
 
 SCENARIO("A DICOM series gives its true geometry", "[images][dicom]") {
