@@ -2,6 +2,8 @@
 
 #include "geometry/formats/image_bytes.h"
 #include "geometry/formats/image_formats.h"
+#include "geometry/formats/label_table.h"
+#include "geometry/image/threshold.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/regular_file.h"
 #include "geometry/kernel/whole_file.h"
@@ -9,12 +11,9 @@
 
 namespace vesselbench {
 
-std::string image_formats_text() {
-    return enumerated(read_names(image_formats())) + " (" +
-           enumerated(read_suffixes(image_formats())) + "), or " + folder_text(image_formats());
-}
+namespace {
 
-ImageFile read_image_file(const std::string& path) {
+ImageFile read_any(const std::string& path) {
     if (!file_exists(path)) throw IoError(bare_name(path) + ": no such file");
     refuse_special_file(path);
     const ImageFormat* format = row_that_reads(image_formats(), path);
@@ -22,6 +21,29 @@ ImageFile read_image_file(const std::string& path) {
         bad_file(bare_name(path), "its image format is unknown", "give " + image_formats_text());
     ImageFile file = format->read(path);
     file.format = format->name;
+    return file;
+}
+
+}  // namespace
+
+std::string image_formats_text() {
+    return enumerated(read_names(image_formats())) + " (" +
+           enumerated(read_suffixes(image_formats())) + "), or " + folder_text(image_formats());
+}
+
+ImageFile read_image_file(const std::string& path) {
+    ImageFile file = read_any(path);
+    if (!file.layers.empty())
+        bad_file(bare_name(path), "its segments overlap, in several layers",
+                 "export one of them as a label map");
+    return file;
+}
+
+ImageFile read_segmentation_file(const std::string& path) {
+    ImageFile file = read_any(path);
+    const bool unnamed = file.segments.empty() && has_label_table(path);
+    if (unnamed && judge(file.image).kind == ImageKind::Labels)
+        file.segments = label_table_beside(path, file.notes);
     return file;
 }
 

@@ -16,6 +16,10 @@ namespace vesselbench {
 /// three dimensions, or more than 2^30 voxels
 [[nodiscard]] ImageFile read_image_file(const std::string& path);
 
+/// The same, also of a segmentation in which segments overlap (ImageFile::layers); of a label map
+/// that names no segments, those of a label table beside it (label_table.h).
+[[nodiscard]] ImageFile read_segmentation_file(const std::string& path);
+
 /// The image of read_image_file alone.
 [[nodiscard]] Image read_image(const std::string& path);
 

@@ -8,6 +8,7 @@
 
 #include "geometry/formats/image_bytes.h"
 #include "geometry/formats/number_text.h"
+#include "geometry/formats/slicer_segments.h"
 #include "geometry/kernel/whole_file.h"
 #include "geometry/kernel/wording.h"
 
@@ -19,6 +20,7 @@ using Fields = std::map<std::string, std::string>;
 
 struct Header {
     Fields fields;         ///< names in lower case without blanks: "spacedirections"
+    NrrdPairs pairs;       ///< "key:=value"
     std::size_t data = 0;  ///< offset of the first byte after the header
 };
 
@@ -45,7 +47,10 @@ Header parse_header(std::string_view bytes, const std::string& name) {
         const auto colon = line.find(':');
         if (colon == std::string_view::npos)
             bad_file(name, "its header has a line that is not a field", "export the file again");
-        if (line.substr(colon).starts_with(":=")) continue;
+        if (line.substr(colon).starts_with(":=")) {
+            header.pairs[std::string(line.substr(0, colon))] = trimmed(line.substr(colon + 2));
+            continue;
+        }
         std::string key = lower_case(line.substr(0, colon));
         std::erase(key, ' ');
         header.fields[key] = trimmed(line.substr(colon + 1));
@@ -160,12 +165,25 @@ Vec3 signs_to_lps(const Fields& fields, const std::string& name, std::vector<std
     return {1.0, 1.0, 1.0};
 }
 
-/// The file's spatial axes, and the others (of size 1).
+/// Layers of a segmentation in which segments overlap: Slicer puts them into the first axis. 1: it
+/// has none.
+std::size_t layer_count(const Header& header, const std::vector<std::string>& sizes,
+                        const std::vector<AxisVector>& directions) {
+    constexpr double kMostLayers = 1000;
+    const bool layered = sizes.size() == 4 && directions.size() == 4 && !directions[0] &&
+                         header.pairs.contains("Segment0_Layer");
+    const auto count = layered ? number_in(sizes[0]) : std::nullopt;
+    const bool valid =
+        count && *count >= 1.0 && *count <= kMostLayers && *count == std::floor(*count);
+    return valid ? static_cast<std::size_t>(*count) : 1;
+}
+
+/// The file's spatial axes, and the others (of size 1, or that of the layers).
 std::vector<std::size_t> spatial_axes(const std::vector<std::string>& sizes,
-                                      const std::vector<AxisVector>& directions,
+                                      const std::vector<AxisVector>& directions, bool layered,
                                       const std::string& name) {
     std::vector<std::size_t> axes;
-    for (std::size_t a = 0; a < sizes.size(); ++a) {
+    for (std::size_t a = layered ? 1 : 0; a < sizes.size(); ++a) {
         const bool spatial = directions.empty() || directions[a].has_value();
         const bool single = sizes[a] == "1";
         const bool surplus = directions.empty() && single && sizes.size() > 3;
@@ -267,8 +285,10 @@ bool is_big_endian(const Fields& fields, VoxelType type, const std::string& name
     return lower_case(*endian) == "big";
 }
 
-Image decoded(const ImageHeader& header, std::string_view data, const Fields& fields,
+/// \param layers values for each voxel
+Image decoded(ImageHeader header, std::size_t layers, std::string_view data, const Fields& fields,
               const std::string& name) {
+    header.size[0] *= static_cast<int>(layers);
     const auto [i, j, k] = header.size;
     const std::size_t count = checked_voxel_count({i, j, k}, name);
     const std::size_t bytes = count * bytes_of(header.type);
@@ -282,12 +302,38 @@ Image decoded(const ImageHeader& header, std::string_view data, const Fields& fi
              "save it with gzip encoding");
 }
 
+/// The layers of voxels that each hold the values of all of them.
+std::vector<Image> layers_of(const Image& interleaved, std::size_t count) {
+    Image layer = interleaved;
+    layer.size[0] /= static_cast<int>(count);
+    std::vector<Image> layers;
+    for (std::size_t l = 0; l < count; ++l) {
+        std::vector<float> voxels(layer.voxel_count());
+        for (std::size_t v = 0; v < voxels.size(); ++v)
+            voxels[v] = (*interleaved.voxels)[v * count + l];
+        layer.voxels = std::make_shared<const std::vector<float>>(std::move(voxels));
+        layers.push_back(layer);
+    }
+    return layers;
+}
+
+/// The image, or the layers of a segmentation, with the segments.
+void take_voxels(const Image& all, std::size_t layers, const NrrdPairs& pairs, ImageFile& file) {
+    file.image = all;
+    if (layers > 1) {
+        file.layers = layers_of(all, layers);
+        file.image = file.layers.front();
+        file.layers.erase(file.layers.begin());
+    }
+    read_slicer_segments(pairs, file);
+}
+
 }  // namespace
 
 ImageFile read_nrrd(const std::string& path) {
     const std::string name = bare_name(path);
-    const std::string all = file_content(path);
-    const Header parsed = parse_header(all, name);
+    const std::string content = file_content(path);
+    const Header parsed = parse_header(content, name);
     const Fields& fields = parsed.fields;
     const auto sizes = words_of(needed(fields, "sizes", name));
     const auto dimension = number_in(needed(fields, "dimension", name));
@@ -300,7 +346,8 @@ ImageFile read_nrrd(const std::string& path) {
 
     ImageFile file;
     ImageHeader header;
-    const auto axes = spatial_axes(sizes, directions, name);
+    const std::size_t layers = layer_count(parsed, sizes, directions);
+    const auto axes = spatial_axes(sizes, directions, layers > 1, name);
     std::array<long long, 3> size{};
     for (std::size_t i = 0; i < 3; ++i) {
         const auto n = number_in(sizes[axes[i]]);
@@ -308,12 +355,15 @@ ImageFile read_nrrd(const std::string& path) {
             bad_file(name, "its size '" + sizes[axes[i]] + "' is invalid", "the header is damaged");
         size[i] = static_cast<long long>(*n);
     }
-    (void)checked_voxel_count(size, name);
+    auto all = size;
+    all[0] *= static_cast<long long>(layers);
+    (void)checked_voxel_count(all, name);
     std::copy(size.begin(), size.end(), header.size.begin());
     header.type = voxel_type(needed(fields, "type", name), name);
     header.big_endian = is_big_endian(fields, header.type, name);
     place(fields, directions, axes, name, file, header);
-    file.image = decoded(header, data_bytes(path, all, parsed, name), fields, name);
+    take_voxels(decoded(header, layers, data_bytes(path, content, parsed, name), fields, name),
+                layers, parsed.pairs, file);
     return file;
 }
 
