@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "geometry/image/lines.h"
+#include "geometry/image/squared_distances.h"
 #include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
@@ -111,49 +112,19 @@ float linear_at(const float* line, std::size_t n, double position) {
     return static_cast<float>((1.0 - t) * line[i] + t * next);
 }
 
-/// Means "no outline in this line": far beyond any image, but its square is still exact in float.
-constexpr float kFar = 1e15f;
-
-/// Squared distances along one line: d(p) = min over q of (h (p - q))^2 + d(q).
-void squared_distances(std::vector<float>& line, double h) {
-    const std::size_t n = line.size();
-    std::vector<std::size_t> parabola(n);
-    std::vector<double> from(n + 1);
-    const auto meet = [&](std::size_t p, std::size_t q) {  // p < q
-        const double a = h * static_cast<double>(p), b = h * static_cast<double>(q);
-        return ((line[q] + b * b) - (line[p] + a * a)) / (2.0 * (b - a));
-    };
-    std::size_t count = 0;
-    for (std::size_t q = 0; q < n; ++q) {
-        if (line[q] >= kFar) continue;
-        while (count > 0 && meet(parabola[count - 1], q) <= from[count - 1]) --count;
-        from[count] =
-            count == 0 ? -std::numeric_limits<double>::infinity() : meet(parabola[count - 1], q);
-        parabola[count++] = q;
-    }
-    if (count == 0) return;
-    const std::vector<float> old = line;
-    std::size_t at = 0;
-    for (std::size_t p = 0; p < n; ++p) {
-        const double x = h * static_cast<double>(p);
-        while (at + 1 < count && from[at + 1] < x) ++at;
-        const double d = x - h * static_cast<double>(parabola[at]);
-        line[p] = static_cast<float>(d * d + old[parabola[at]]);
-    }
-}
-
-/// Distance [mm] within each slice to the nearest voxel where inside == wanted; kFar if none.
+/// Distance [mm] within each slice to the nearest voxel where inside == wanted; kFarSquared if
+/// none.
 std::vector<float> slice_distances(const Image& mask, std::size_t stack, bool wanted) {
     std::vector<float> d(mask.voxels->size());
     for (std::size_t v = 0; v < d.size(); ++v)
-        d[v] = ((*mask.voxels)[v] >= 0.5f) == wanted ? 0.0f : kFar;
+        d[v] = ((*mask.voxels)[v] >= 0.5f) == wanted ? 0.0f : kFarSquared;
     for (std::size_t axis = 0; axis < 3; ++axis)
         if (axis != stack) {
             const double h = mask.spacing()[static_cast<Eigen::Index>(axis)];
             for_each_line(d, mask.size, static_cast<int>(axis),
                           [h](std::vector<float>& line) { squared_distances(line, h); });
         }
-    for (float& v : d) v = v >= kFar ? kFar : std::sqrt(v);
+    for (float& v : d) v = v >= kFarSquared ? kFarSquared : std::sqrt(v);
     return d;
 }
 
@@ -164,9 +135,9 @@ std::vector<float> signed_slice_distances(const Image& mask, std::size_t stack) 
     const auto inside = slice_distances(mask, stack, true);
     std::vector<float> signed_distance(outside.size());
     for (std::size_t v = 0; v < outside.size(); ++v)
-        signed_distance[v] = outside[v] >= kFar  ? kFar
-                             : inside[v] >= kFar ? -kFar
-                                                 : outside[v] - inside[v];
+        signed_distance[v] = outside[v] >= kFarSquared  ? kFarSquared
+                             : inside[v] >= kFarSquared ? -kFarSquared
+                                                        : outside[v] - inside[v];
     return signed_distance;
 }
 
@@ -176,8 +147,8 @@ float between_slices(const float* line, std::size_t n, double position) {
     const auto i = std::min(static_cast<std::size_t>(position), n - 1);
     const double t = position - static_cast<double>(i);
     float a = line[i], b = line[std::min(i + 1, n - 1)];
-    if (std::abs(a) >= kFar && std::abs(b) < kFar) a = std::copysign(std::abs(b), a);
-    if (std::abs(b) >= kFar && std::abs(a) < kFar) b = std::copysign(std::abs(a), b);
+    if (std::abs(a) >= kFarSquared && std::abs(b) < kFarSquared) a = std::copysign(std::abs(b), a);
+    if (std::abs(b) >= kFarSquared && std::abs(a) < kFarSquared) b = std::copysign(std::abs(a), b);
     return static_cast<float>((1.0 - t) * a + t * b);
 }
 
