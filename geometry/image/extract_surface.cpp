@@ -5,6 +5,7 @@
 
 #include "geometry/image/border_grazes.h"
 #include "geometry/image/clean_image.h"
+#include "geometry/image/drawn_wall.h"
 #include "geometry/image/iso_surface.h"
 #include "geometry/image/missing_voxels.h"
 #include "geometry/image/resample.h"
@@ -14,6 +15,8 @@
 #include "geometry/image/voxel_chains.h"
 #include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/parallel.h"
+#include "geometry/kernel/surface_distance.h"
 #include "geometry/kernel/wording.h"
 
 namespace vesselbench {
@@ -54,6 +57,16 @@ struct ImageSource {
     std::optional<Intensities> intensities;
 };
 
+/// The image and its mask.
+bool uses_both(ExtractionMethod method) {
+    return method == ExtractionMethod::Masked || method == ExtractionMethod::Wall;
+}
+
+/// The mask's voxels alone decide about the inside.
+bool takes_voxels(ExtractionMethod method) {
+    return method == ExtractionMethod::Labels || method == ExtractionMethod::Wall;
+}
+
 bool wants_topology(const ExtractionParameters& parameters) {
     return parameters.with_topology && parameters.cleaning.any();
 }
@@ -73,7 +86,7 @@ void decide_method(ImageSource& source, const ExtractionParameters& parameters, 
     } else {
         result.method = ExtractionMethod::Threshold;
     }
-    if (result.method == ExtractionMethod::Masked && !source.mask)
+    if (uses_both(result.method) && !source.mask)
         throw DiagnosedInput(
             {.code = "no-mask",
              .operation = "extract-surface",
@@ -130,6 +143,7 @@ Image inside_up(const Image& image, bool inside_below) {
 struct Field {
     Image image;
     double iso = 0.0;
+    std::optional<Image> of_mask = {};  ///< the same of the mask alone, if the image moved its wall
 };
 
 Vec3 place_of(const Image& mask, std::size_t voxel) {
@@ -141,11 +155,13 @@ Vec3 place_of(const Image& mask, std::size_t voxel) {
 
 /// \param fill missing voxels: nobody said how far to close the mask
 Field lumen_field(const Image& mask, bool fill, Extraction& result, const Progress& progress) {
-    KeptLumen& kept = *result.lumen;
-    Image whole = mask;
+    KeptLumen& kept = result.lumen.emplace();
+    FreedMask freed = without_grazes(mask);
+    kept.grazes = freed.grazes;
+    Image whole = std::move(freed.mask);
     if (fill) {
         const FilledMask filled = without_missing_voxels(whole);
-        const auto before = std::ranges::count_if(*mask.voxels, is_inside);
+        const auto before = std::ranges::count_if(*whole.voxels, is_inside);
         kept.closing = filled.closing;
         kept.loops = filled.before.tunnels() + filled.before.cavities;
         kept.filled =
@@ -162,7 +178,8 @@ Field lumen_field(const Image& mask, bool fill, Extraction& result, const Progre
     return {with_voxel_width(joined.mask, separating_field(joined.mask, progress)), 0.0};
 }
 
-Field label_field(const Image& labels, const ExtractionParameters& parameters, Extraction& result,
+/// The chosen labels as a mask, cleaned and resampled.
+Image chosen_mask(const Image& labels, const ExtractionParameters& parameters, Extraction& result,
                   const Progress& progress) {
     const auto there = labels_of(labels);
     for (const int label : parameters.labels)
@@ -174,24 +191,24 @@ Field label_field(const Image& labels, const ExtractionParameters& parameters, E
         }
     result.labels = parameters.labels.empty() ? there : parameters.labels;
     const Cleaning& cleaning = parameters.cleaning;
-    Image mask = mask_of_labels(labels, parameters.labels);
-    if (parameters.mask_surface == MaskSurface::Lumen) {
-        FreedMask freed = without_grazes(mask);
-        mask = std::move(freed.mask);
-        result.lumen.emplace().grazes = freed.grazes;
-    }
+    const Image mask = mask_of_labels(labels, parameters.labels);
     if (wants_topology(parameters)) result.before = voxel_topology(mask, kMaskIso);
     progress.check_cancelled();
-    Field field{cleaned_mask(mask, cleaning), kMaskIso};
+    const Image clean = cleaned_mask(mask, cleaning);
     progress.check_cancelled();
-    if (parameters.resample) field.image = resample_mask(field.image, *parameters.resample);
+    return parameters.resample ? resample_mask(clean, *parameters.resample) : clean;
+}
+
+Field label_field(const Image& labels, const ExtractionParameters& parameters, Extraction& result,
+                  const Progress& progress) {
+    Field field{chosen_mask(labels, parameters, result, progress), kMaskIso};
     progress.check_cancelled();
     result.mask_surface = parameters.mask_surface;
     if (parameters.mask_surface == MaskSurface::Smooth)
         field = {separating_field(field.image, progress), 0.0};
     else if (parameters.mask_surface == MaskSurface::Lumen)
-        field = lumen_field(field.image, cleaning.closing == 0, result, progress);
-    field.image = gaussian(field.image, cleaning.gaussian);
+        field = lumen_field(field.image, parameters.cleaning.closing == 0, result, progress);
+    field.image = gaussian(field.image, parameters.cleaning.gaussian);
     return field;
 }
 
@@ -244,6 +261,49 @@ Field masked_field(ImageSource& source, const ExtractionParameters& parameters, 
     progress.check_cancelled();
     field.image = masked_intensities(field.image, grown, field.iso, false);
     return field;
+}
+
+/// The mask's wall, moved by the image; opening and closing are of the mask.
+Field wall_field(ImageSource& source, const ExtractionParameters& parameters, Extraction& result,
+                 const Progress& progress) {
+    const Image mask = chosen_mask(*source.mask, parameters, result, progress.part(0.0, 0.1));
+    ExtractionParameters of_image = parameters;
+    of_image.cleaning.opening = of_image.cleaning.closing = 0;
+    const Intensities& made = prepared(source, of_image, false, progress.part(0.1, 0.2));
+    result.contrast = made.contrast;
+    result.mask_surface = MaskSurface::Smooth;
+    DrawnWall wall = drawn_wall(made.ready, mask, progress.part(0.2, 1.0));
+    result.from_mask.emplace().seen = wall.seen;
+    result.reasons.push_back(
+        "the mask is the wall: moved to the image's edges by at most a voxel, " +
+        formatted(100.0 * wall.seen, "%.0f") + " % of the wall has one");
+    return {std::move(wall.field), 0.0, std::move(wall.mask_field)};
+}
+
+/// 1 for the vertices of the wall.
+std::vector<char> wall_vertices(const Surface& surface) {
+    std::vector<char> on_wall(surface.vertex_count());
+    for (TriangleId t = 0; t < surface.triangle_count(); ++t)
+        if (surface.patch_of(t).kind == PatchKind::Wall)
+            for (const VertexId v : surface.triangles()[t]) on_wall[v] = 1;
+    return on_wall;
+}
+
+/// How far the wall lies from the mask's surface.
+MaskDistance distance_from(const Surface& mask, const Surface& surface) {
+    const SurfaceDistance to_mask(mask);
+    const std::vector<char> on_wall = wall_vertices(surface);
+    std::vector<double> distances(surface.vertex_count());
+    for_each_vertex(distances.size(), [&](std::size_t v) {
+        if (on_wall[v] != 0) distances[v] = to_mask.closest_point((*surface.positions)[v]).distance;
+    });
+    const auto count = std::count(on_wall.begin(), on_wall.end(), 1);
+    MaskDistance found;
+    for (const double d : distances) {
+        found.mean += d / static_cast<double>(std::max<std::ptrdiff_t>(1, count));
+        found.largest = std::max(found.largest, d);
+    }
+    return found;
 }
 
 /// A vessel that leaves the image has at least this many voxel faces there; less is a touch.
@@ -327,6 +387,10 @@ Field field_of(ImageSource& source, const ExtractionParameters& parameters, Extr
                const Progress& progress) {
     decide_method(source, parameters, result, progress);
     progress.check_cancelled();
+    if (result.method == ExtractionMethod::Wall) {
+        result.threshold = kMaskIso;
+        return wall_field(source, parameters, result, progress);
+    }
     if (result.method != ExtractionMethod::Labels) {
         const Field field = intensity_field(source, parameters, result, progress.part(0.0, 0.3));
         if (!parameters.local_levels || !has_levels(source, result)) return field;
@@ -359,6 +423,19 @@ void choose_body(const Field& field, const ExtractionParameters& parameters, Ext
     result.dropped_vessel = choice.dropped_vessel;
 }
 
+/// Where a mask was used beside the image.
+void add_distance(const Field& field, const ImageSource& source,
+                  const ExtractionParameters& parameters, Extraction& result) {
+    if (!uses_both(result.method) || result.surface.empty()) return;
+    const Surface mask =
+        field.of_mask ? iso_surface(*field.of_mask, 0.0)
+                      : iso_surface(mask_of_labels(*source.mask, parameters.labels), kMaskIso);
+    if (mask.empty()) return;
+    const double seen = result.from_mask ? result.from_mask->seen : 0.0;
+    result.from_mask = distance_from(mask, result.surface);
+    result.from_mask->seen = seen;
+}
+
 }  // namespace
 
 std::string to_string(ExtractionMethod method) {
@@ -367,6 +444,8 @@ std::string to_string(ExtractionMethod method) {
             return "labels";
         case ExtractionMethod::Masked:
             return "masked";
+        case ExtractionMethod::Wall:
+            return "wall";
         default:
             return "threshold";
     }
@@ -390,7 +469,7 @@ ExtractionParameters SurfaceExtractor::decided(ExtractionParameters parameters,
     decide_method(*source_, parameters, result, progress);
     progress.check_cancelled();
     parameters.method = result.method;
-    if (result.method == ExtractionMethod::Labels) return parameters;
+    if (takes_voxels(result.method)) return parameters;
     if (result.method == ExtractionMethod::Masked && !parameters.threshold)
         result.threshold = masked_threshold(
             source_->image, mask_of_labels(*source_->mask, parameters.labels), progress);
@@ -409,6 +488,7 @@ Extraction SurfaceExtractor::extract(const ExtractionParameters& parameters,
     progress.check_cancelled();
     if (wants_topology(parameters)) result.after = voxel_topology(field.image, field.iso);
     choose_body(field, parameters, result, progress);
+    add_distance(field, *source_, parameters, result);
     return result;
 }
 

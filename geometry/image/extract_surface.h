@@ -20,10 +20,12 @@ namespace vesselbench {
 enum class ExtractionMethod {
     Threshold,  ///< intensities or a level set: inside above (or below) the threshold
     Labels,     ///< chosen labels of a label map or mask
-    Masked      ///< intensities inside a dilated mask (thesis Fig. 3.7)
+    Masked,     ///< intensities inside a dilated mask (thesis Fig. 3.7)
+    Wall        ///< a drawn mask's surface, refined by the image (drawn_wall.h)
 };
 
-[[nodiscard]] std::string to_string(ExtractionMethod method);  ///< "threshold", "labels", "masked"
+/// "threshold", "labels", "masked", "wall"
+[[nodiscard]] std::string to_string(ExtractionMethod method);
 
 /// Where the surface of a mask or of labels lies between the voxels.
 enum class MaskSurface {
@@ -80,6 +82,14 @@ struct KeptLumen {
     Vec3 place = Vec3::Zero();  ///< of the middle one of these [mm]
 };
 
+/// How far a surface's wall lies from the mask's: of `wall` from its smooth surface, else from the
+/// one midway between voxels.
+struct MaskDistance {
+    double mean = 0.0;     ///< [mm]
+    double largest = 0.0;  ///< [mm]
+    double seen = 0.0;     ///< [-] of the wall at which the image has an edge; of `wall` only
+};
+
 /// A surface, and the decisions and findings on the way.
 struct Extraction {
     Surface surface;    ///< closed, outward, [mm]; flat closures at the border are patches cut_1...
@@ -100,11 +110,12 @@ struct Extraction {
     std::size_t hollows = 0;                   ///< found
     double largest_dropped = 0.0;              ///< [mm^3]
     std::optional<PieceShape> dropped_vessel;  ///< the longest body dropped that is a vessel
+    std::optional<MaskDistance> from_mask;     ///< of methods that use a mask beside the image
 };
 
-/// Makes a surface from an image (thesis 3.2): a threshold on intensities, chosen labels, or
-/// intensities inside a dilated mask. Where the vessel leaves the image, by at least two voxel
-/// faces, it is closed flat by a patch of kind Cut.
+/// Makes a surface from an image (thesis 3.2): a threshold on intensities, chosen labels,
+/// intensities inside a dilated mask, or a mask's surface refined by intensities. Where the vessel
+/// leaves the image, by at least two voxel faces, it is closed flat by a patch of kind Cut.
 /// \param mask on the image's grid, inside where > 0, or nothing
 /// \throw InvalidInput if the image is empty or constant, a mask is on another grid, or a label
 /// does not occur
