@@ -16,11 +16,12 @@ namespace {
 
 using Index = std::array<int, 3>;
 
-/// Layers behind the border in which a wall that touches it has spread.
-constexpr int kBehind = 2;
-/// Its section there over that at the border, within some voxels to the sides [-].
-constexpr double kSpread = 1.6;
+/// A wall that touches the border spreads behind it: the section within some voxels to the sides
+/// grows by the first factor from the contact to two layers behind it, and by the second one from
+/// the next layer on. That of a vessel whose outermost layer is ragged grows at once only.
+constexpr double kSpread = 1.6, kSpreadOn = 1.1;
 constexpr int kReach = 3;
+constexpr int kLayers = 4;
 
 /// The voxels of a layer parallel to a side of the image.
 class Layer {
@@ -78,16 +79,24 @@ std::vector<std::pair<int, int>> contact_at(const Layer& border, std::pair<int, 
     return contact;
 }
 
-bool is_graze(const std::vector<std::pair<int, int>>& contact, const Layer& behind) {
-    std::vector<std::uint8_t> seen(static_cast<std::size_t>(behind.width()) *
-                                   static_cast<std::size_t>(behind.height()));
-    std::size_t section = 0;
+/// Voxels of a layer near a contact.
+double section_near(const std::vector<std::pair<int, int>>& contact, const Layer& layer) {
+    std::vector<std::uint8_t> seen(static_cast<std::size_t>(layer.width()) *
+                                   static_cast<std::size_t>(layer.height()));
+    double section = 0.0;
     for (const auto& at : contact)
         around(at, kReach, [&](int u, int v) {
-            if (!behind.is_in(u, v) || std::exchange(seen[behind.place(u, v)], 1) != 0) return;
-            ++section;
+            if (layer.is_in(u, v) && std::exchange(seen[layer.place(u, v)], 1) == 0) section += 1.0;
         });
-    return static_cast<double>(section) > kSpread * static_cast<double>(contact.size());
+    return section;
+}
+
+bool is_graze(const std::vector<std::pair<int, int>>& contact, const Image& mask, int side) {
+    const auto section = [&](int behind) {
+        return section_near(contact, Layer(mask, side, behind));
+    };
+    return section(2) > kSpread * static_cast<double>(contact.size()) &&
+           section(3) > kSpreadOn * section(1);
 }
 
 /// By place in a side's layer: 1 where a wall touches it.
@@ -97,17 +106,17 @@ struct Grazes {
 };
 
 Grazes grazes_of(const Image& mask, int side) {
-    const Layer border(mask, side, 0), behind(mask, side, kBehind);
+    const Layer border(mask, side, 0);
     Grazes grazes;
     std::vector<std::uint8_t> seen(static_cast<std::size_t>(border.width()) *
                                    static_cast<std::size_t>(border.height()));
     grazes.touched = seen;
-    if (mask.size[static_cast<std::size_t>(side / 2)] <= 2 * kBehind) return grazes;
+    if (mask.size[static_cast<std::size_t>(side / 2)] < 2 * kLayers) return grazes;
     for (int v = 0; v < border.height(); ++v)
         for (int u = 0; u < border.width(); ++u) {
             if (!border.is_in(u, v) || seen[border.place(u, v)] != 0) continue;
             const auto contact = contact_at(border, {u, v}, seen);
-            if (!is_graze(contact, behind)) continue;
+            if (!is_graze(contact, mask, side)) continue;
             ++grazes.count;
             for (const auto& at : contact) grazes.touched[border.place(at.first, at.second)] = 1;
         }

@@ -14,8 +14,8 @@ struct FreedMask {
 
 /// Where a vessel's wall touches the border of an image, as at the bends of a segment that was
 /// cropped to its own box, no vessel ends: there the mask gets a voxel outside. Where a side has
-/// cut a vessel, the mask goes on for that voxel. A wall that touches a side spreads within two
-/// voxels behind it; a vessel that crosses it keeps its section. A mask without such places stays
+/// cut a vessel, the mask goes on for that voxel. A wall that touches a side spreads behind it;
+/// a vessel that crosses it keeps its section. A mask without such places stays
 /// as it is. \param mask inside where >= 0.5
 [[nodiscard]] FreedMask without_grazes(const Image& mask);
 

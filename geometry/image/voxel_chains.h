@@ -24,8 +24,8 @@ struct JoinedMask {
 [[nodiscard]] std::vector<std::size_t> chain_voxels(const Image& mask);
 
 /// A field in which parts of a mask that are one voxel thin keep their width: the zero set of a
-/// chain of voxels has a section of a voxel's face, and that of a sheet is a voxel thick. Voxel
-/// centres keep their sides.
+/// chain of voxels has at least the section of a voxel's face, and that of a sheet is a voxel
+/// thick. Voxel centres keep their sides.
 /// \param field above 0 inside, as from separating_field of the mask [mm]
 [[nodiscard]] Image with_voxel_width(const Image& mask, const Image& field);
 

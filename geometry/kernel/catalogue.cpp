@@ -23,6 +23,16 @@ constexpr CatalogueText kTexts[] = {
     {"mask-not-labels", "mask: {reason}"},
     {"mask-of-intensities",
      "the mask holds neither labels nor a level set: give {fix}, the value that bounds its inside"},
+    {"mask-resampled",
+     "the mask has a grid of its own, {mask}: it was resampled by shape to that of the image, "
+     "{image}; 3D Slicer exports it on the image's grid (Segmentations, Export to files, with the "
+     "image as reference volume)"},
+    {"mask-beyond-image",
+     "{lost_percent:%.3g} % of the mask lies beyond the image and is left out"},
+    {"label-unchosen",
+     "there are {labels#label}, and which is the vessel is not chosen:{list}\nchoose it with "
+     "{option}, by name or label; --label {several} takes two as one vessel, --label all takes all "
+     "of them"},
     {"file-note", "{note}"},
 
     // Extraction.
@@ -55,9 +65,10 @@ constexpr CatalogueText kTexts[] = {
      "{voxels#voxel was|voxels were} added where a vessel's voxels touch at edges or corners only; "
      "{fix} leaves it apart there"},
     {"width-below-voxels",
-     "a vessel is a single voxel wide at {voxels#voxel}, as near {place}: it is there, but the mask "
-     "does not say how wide it is below two voxels ({width_mm} mm); there it got the section of a "
-     "voxel"},
+     "a vessel is a single voxel wide at {voxels#voxel}, as near {place}: it is there, but the "
+     "mask "
+     "does not say how wide it is below two voxels ({width_mm} mm); there it was made about one "
+     "wide"},
     {"cleaning-changed-topology", "cleaning changed the topology: {before} became {after}"},
     {"vessel-leaves-image",
      "the vessel leaves the image at {places#place}; it is closed by flat caps there (patches "
@@ -550,7 +561,8 @@ constexpr CatalogueText kTexts[] = {
      "{loops#loop}; choose another threshold ({fix}), or add a mask ({fix2})"},
     {"mask-within-noise",
      "there is no vessel in the mask that can be distinguished from noise: its surface has "
-     "{loops#loop}, and no closing of up to 3 voxels mends it; segment the vessel anew, or fill the "
+     "{loops#loop}, and no closing of up to 3 voxels mends it; segment the vessel anew, or fill "
+     "the "
      "segment's holes in the program that made it"},
     {"surface-within-noise",
      "there is no vessel in it that can be distinguished from noise: the surface has "

@@ -255,7 +255,7 @@ SCENARIO("Newer values end the work on older ones at once", "[window][extraction
     for (int i = 0; i < 40; ++i) {
         const auto arguments =
             checked_arguments(find_operation("extract-surface"), {{"threshold", 100.0 + i}});
-        last = ask(models, ExtractionQuestion{image, {}, i / 20, arguments});
+        last = ask(models, ExtractionQuestion{image, {}, {}, i / 20, arguments});
         std::this_thread::sleep_for(2ms);
         if (!models.poll()) continue;
         REQUIRE(models.newest()->question >= seen);

@@ -11,6 +11,7 @@
 #include "geometry/vessel/centerlines/centerlines.h"
 #include "tests/support/image_shapes.h"
 #include "tests/support/shapes.h"
+#include "workbench/case/diagnostic_words.h"
 #include "workbench/case/operation.h"
 #include "workbench/operations/table.h"
 
@@ -78,15 +79,53 @@ SCENARIO("load-image reports its findings and decisions", "[workbench][images]")
         }
         THEN("a mask in another place is refused") {
             CHECK_THROWS_WITH(run("load-image", {}, {{"file", path}, {"mask", mask}}),
-                              Contains("different place"));
+                              Contains("beside the image") && Contains("3D Slicer"));
         }
     }
-    GIVEN("a mask of another size") {
-        const std::string mask = written(ball_image(8.0, 29, Vec3(0.8, 0.8, 1.0)), "small.nrrd");
-        THEN("both sizes are named") {
-            CHECK_THROWS_WITH(run("load-image", {}, {{"file", path}, {"mask", mask}}),
-                              Contains("29 x 29 x 29") && Contains("30 x 30 x 30"));
+    GIVEN("masks on other grids") {
+        const Image whole = ball_image(8.0, 30, Vec3(0.8, 0.8, 1.0));
+        const std::string image = written(whole, "whole.nrrd");
+        const auto loaded = [&](const Image& mask) {
+            const std::string file = written(mask_of_iso(mask, 50.0, false), "mask.nrrd");
+            return run("load-image", {}, {{"file", image}, {"mask", file}});
+        };
+        const auto same = loaded(whole).scene.mask->voxels;
+        THEN("a smaller one of the same lattice is taken as it is") {
+            Image part = whole;
+            part.size[2] = 29;
+            part.voxels = std::make_shared<const std::vector<float>>(
+                whole.voxels->begin(), whole.voxels->begin() + 30 * 30 * 29);
+            const Outcome outcome = loaded(part);
+            CHECK(outcome.report->at("mask_grid") == "part of the image's lattice");
+            CHECK(outcome.warnings.empty());
+            CHECK(*outcome.scene.mask->voxels == *same);
         }
+        THEN("one of another lattice is resampled, which a warning says") {
+            Image moved = whole;
+            moved.index_to_patient.topRightCorner<3, 1>() += Vec3(0.3, 0.3, 0.3);
+            const Outcome outcome = loaded(moved);
+            CHECK(outcome.report->at("mask_grid") == "resampled");
+            REQUIRE(outcome.warnings.size() == 1);
+            CHECK(outcome.warnings[0].code == "mask-resampled");
+            CHECK_THAT(worded(outcome.warnings[0]),
+                       Contains("30 x 30 x 30") && Contains("3D Slicer"));
+        }
+        THEN("what lies beyond the image is left out, which a warning says") {
+            Image half = whole;
+            half.size[2] = 15;
+            half.voxels = std::make_shared<const std::vector<float>>(
+                whole.voxels->begin(), whole.voxels->begin() + 30 * 30 * 15);
+            const std::string file = written(mask_of_iso(whole, 50.0, false), "mask.nrrd");
+            const Outcome outcome =
+                run("load-image", {}, {{"file", written(half, "half.nrrd")}, {"mask", file}});
+            REQUIRE(outcome.warnings.size() == 1);
+            CHECK(outcome.warnings[0].code == "mask-beyond-image");
+            CHECK(outcome.warnings[0].figures.at("lost_percent") == Approx(50.0).margin(5.0));
+        }
+    }
+    GIVEN("a choice of labels where there are none") {
+        CHECK_THROWS_WITH(run("load-image", {}, {{"file", path}, {"label", std::string("artery")}}),
+                          Contains("label map"));
     }
     GIVEN("other units") {
         const Outcome outcome = run("load-image", {}, {{"file", path}, {"units", "cm"}});

@@ -44,10 +44,10 @@ SCENARIO("A recipe is read from JSON", "[workbench][recipe]") {
     CHECK(recipe[1].optional);
     CHECK_FALSE(recipe[1].unless_closed);
     CHECK(recipe[2].unless_closed);
-    REQUIRE(recipe[2].unless_made);
-    CHECK(recipe[2].unless_made->operation().name == "smooth");
-    CHECK((*recipe[2].unless_made)->integer("iterations") == 5);
-    CHECK_FALSE(recipe[1].unless_made);
+    REQUIRE(recipe[2].unless_made.size() == 1);
+    CHECK(recipe[2].unless_made[0].operation().name == "smooth");
+    CHECK(recipe[2].unless_made[0]->integer("iterations") == 5);
+    CHECK(recipe[1].unless_made.empty());
     CHECK_FALSE(recipe[1].step.has_value());
     CHECK(operations_of(recipe_from_json(list, {"image", "mask", "rp"})) ==
           std::vector<std::string>{"smooth", "fill-hole"});
@@ -78,6 +78,38 @@ SCENARIO("An argument $purpose is the purpose's name", "[workbench][recipe]") {
                       Contains("entry 1") && Contains("preset is $purpose"));
 }
 
+SCENARIO("An argument $mask is the wall that was drawn, unless the mask limits intensities",
+         "[workbench][recipe]") {
+    const auto extraction = [](const std::string& arguments, const RecipeUse& use) {
+        return recipe_from_json(
+            Json::parse(R"([{"operation": "extract-surface", "arguments": )" + arguments + "}]"),
+            use)[0];
+    };
+    const std::string asked = R"({"method": "$mask"})";
+    CHECK(extraction(asked, {"image", "cfd"}).given->text("method") == "auto");
+    CHECK(extraction(asked, {"image", "mask", "cfd"}).given->text("method") == "auto");
+    const RecipeEntry drawn = extraction(asked, {"image", "mask", kDrawnMask});
+    CHECK(drawn.given->text("method") == "wall");
+    CHECK(drawn.if_drawn);
+    const RecipeEntry wanted = extraction(asked, {"image", "mask", kWallMask});
+    CHECK(wanted.given->text("method") == "wall");
+    CHECK_FALSE(wanted.if_drawn);
+    for (const char* other : {R"("threshold": 700)", R"("iso": 0)", R"("dilation": 2)"})
+        CHECK(extraction(R"({"method": "$mask", )" + std::string(other) + "}",
+                         {"image", "mask", kDrawnMask})
+                  .given->text("method") == "auto");
+}
+
+SCENARIO("An entry may be replaced by one of several edits", "[workbench][recipe]") {
+    const Recipe recipe = recipe_from_json(Json::parse(R"([{"operation": "smooth", "unless_made": [
+            {"operation": "smooth"}, {"operation": "repair", "arguments": {}}]}])"),
+                                           {"surface", "cfd"});
+    REQUIRE(recipe[0].unless_made.size() == 2);
+    CHECK(recipe[0].unless_made[1].operation().name == "repair");
+    CHECK(recipe_from_json(recipe_to_json(recipe), {"surface"})[0].unless_made.size() == 2);
+    refused(R"([{"operation": "smooth", "unless_made": [1]}])", "unless_made");
+}
+
 SCENARIO("Surfaces are smoothed less than images, whatever they are for", "[workbench][recipe]") {
     for (const Purpose& purpose : purposes()) {
         INFO(purpose.name);
@@ -98,7 +130,7 @@ SCENARIO("Images for surgery simulation are smoothed everywhere", "[workbench][r
         for (const RecipeEntry& entry : default_recipe({"image", purpose})) {
             if (entry.given.operation().name != "smooth") continue;
             CHECK(entry.given->flag("staircase") == (std::string(purpose) == "planning"));
-            CHECK(entry.unless_made.has_value() == (std::string(purpose) == "planning"));
+            CHECK(entry.unless_made.empty() == (std::string(purpose) != "planning"));
         }
 }
 

@@ -19,6 +19,7 @@
 #include "workbench/export/flow_parameters.h"
 #include "workbench/operations/table.h"
 #include "workbench/prepare/bundled_cases.h"
+#include "workbench/prepare/input.h"
 #include "workbench/prepare/recipe_document.h"
 
 namespace vesselbench {
@@ -213,7 +214,7 @@ bool is_label_list(const std::string& text) {
 bool names_file(const CaseOption& option, const std::string& text) {
     if (!option.is_file) return false;
     if (option.name == kRecipe) return !is_bundled_recipe(text);
-    return !(option.repeatable && is_label_list(text));
+    return !(option.repeatable && (is_label_list(text) || names_segment(text)));
 }
 
 std::string case_name_of(const fs::path& input) {

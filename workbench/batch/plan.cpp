@@ -6,6 +6,7 @@
 
 #include "geometry/formats/format.h"
 #include "geometry/kernel/bare_name.h"
+#include "geometry/kernel/label_table_places.h"
 #include "geometry/kernel/wording.h"
 #include "workbench/batch/case_report.h"
 #include "workbench/batch/file_digests.h"
@@ -58,11 +59,14 @@ std::size_t bytes_of(const fs::path& path) {
     return sum;
 }
 
-/// Of a file and of the voxels that it names.
+/// Of a file, of the voxels that it names, and of the table that names its labels.
 std::string digest_with_voxels(const fs::path& file, FileDigests& digests) {
     std::string all = digests.next(file);
     if (const fs::path voxels = detached_voxels(file); !voxels.empty())
         all += " " + digests.next(voxels);
+    std::error_code ignored;
+    for (const fs::path& table : label_table_places(file))
+        if (fs::is_regular_file(table, ignored)) all += " " + digests.next(table);
     return all;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "geometry/image/image.h"
+#include "geometry/image/segment.h"
 #include "geometry/kernel/surface.h"
 #include "meshing/tetrahedra/volume_mesh.h"
 
@@ -16,6 +17,7 @@ struct Scene {
     std::optional<Surface> surface;
     std::optional<Image> image;
     std::optional<Image> mask;                  ///< labels or a level set on the image's grid
+    Segmentation segmentation;                  ///< of the mask, else of the image's labels
     std::optional<Sampling> sampling;           ///< of the surface's source image, if known
     std::map<std::string, Surface> neighbours;  ///< other structures, for distance awareness
     std::shared_ptr<const VolumeMesh> volume_mesh;

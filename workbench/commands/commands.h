@@ -201,7 +201,9 @@ struct InputArguments {
     std::string input;
     std::string mask;
     std::string units;
-    std::vector<std::string> neighbours;  ///< files, or labels "7,8"
+    std::vector<std::string> neighbours;  ///< files, labels "7,8", or names of segments
+    std::string label;                    ///< segments that are the vessel; empty: not chosen
+    std::string mask_is;                  ///< "wall" or "region"; empty: by the mask
 };
 
 /// What the caller says about vessel ends: each text is numbers of `ends`, "1" or "4,7", or a place

@@ -37,9 +37,13 @@ void print_table(const OpeningPlan& plan, const std::vector<std::string>& names)
 }  // namespace
 
 void list_ends(const EndsOptions& options, const Progress& progress) {
-    const BeforeCuts before =
-        before_cuts({options.input.input, options.input.mask, options.input.units}, "cfd",
-                    with_ends(options.settings, options.ends), remark, progress.part(0.0, 0.7));
+    const BeforeCuts before = before_cuts({.input = options.input.input,
+                                           .mask = options.input.mask,
+                                           .units = options.input.units,
+                                           .label = options.input.label,
+                                           .mask_is = options.input.mask_is},
+                                          "cfd", with_ends(options.settings, options.ends), remark,
+                                          progress.part(0.0, 0.7));
     OpeningPlan plan = planned_openings(before.scene, before.cutting, progress.part(0.7, 1.0));
     const std::vector<std::string> names = planned_names(plan);
     plan.ends = ends_by_number(plan);

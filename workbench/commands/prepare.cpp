@@ -83,7 +83,8 @@ ViewerContents shown_contents(const ExportArguments& arguments, const Session& s
 /// \throw UsageError unless the name is UTF-8
 InputOptions input_options(const InputArguments& arguments, const std::string& name) {
     require_utf8(name, "--name");
-    return {arguments.input, arguments.mask, arguments.units, arguments.neighbours, name};
+    return {arguments.input, arguments.mask,   arguments.units, arguments.neighbours, name,
+            arguments.label, arguments.mask_is};
 }
 
 }  // namespace

@@ -46,8 +46,17 @@ std::string prepare_footer() {
 }
 
 void add_input_options(CLI::App& command, InputArguments& input) {
-    command.add_option("--mask", input.mask, "Segmentation of the image, on the same grid")
+    command
+        .add_option("--mask", input.mask,
+                    "Segmentation of the image: labels or a level set; a smaller or turned grid of "
+                    "the same lattice is taken as it is, another one is resampled by shape")
         ->type_name("FILE");
+    command
+        .add_option("--label", input.label,
+                    "Segments of the mask, else of the label map INPUT, that are the vessel: names "
+                    "or numbers, as artery or 1,2, or all. Without it, a list of them is printed "
+                    "if there are several, and nothing is made")
+        ->type_name("NAME|N,..");
     command
         .add_option(
             "--units", input.units,
@@ -71,14 +80,25 @@ void add_input(CLI::App& command, InputArguments& input) {
     add_input_options(command, input);
 }
 
+void add_mask_is(CLI::App& command, InputArguments& input) {
+    command
+        .add_option("--mask-is", input.mask_is,
+                    "wall: the mask's surface, moved by the image where it has an edge within a "
+                    "voxel (default for labels); region: the mask limits a threshold (default for "
+                    "a level set, and with extract-surface.threshold, method or dilation)")
+        ->check(CLI::IsMember({"wall", "region"}).description(""))
+        ->type_name("wall|region");
+}
+
 void add_neighbours(CLI::App& command, InputArguments& input) {
     command
         .add_option("--neighbour", input.neighbours,
-                    "A structure beside the vessel: a surface file, or labels N,N of the label "
-                    "map; may be repeated. The report says how near it is, and smoothing for "
+                    "A structure beside the vessel: a surface file, or a segment's name or labels "
+                    "N,N of the label map; may be repeated. The report says how near it is, and "
+                    "smoothing for "
                     "planning keeps that distance")
         ->allow_extra_args(false)
-        ->type_name("FILE|N,N");
+        ->type_name("FILE|NAME|N,N");
 }
 
 void add_names(CLI::App& command, std::string& author, std::string& input) {
@@ -132,6 +152,7 @@ void add_ends(CommandLine& line) {
         line, "ends", "List the vessel ends, and what prepare --for cfd would make of each",
         [options, &line] { return list_ends(*options, line.progress), 0; });
     add_input(command, options->input);
+    add_mask_is(command, options->input);
     add_settings(command, options->settings);
     add_end_options(command, options->ends);
     command.add_option("--picture", options->picture, "Draw the vessels with the ends' numbers")
@@ -161,6 +182,7 @@ void add_purpose(CLI::App& command, std::string& purpose) {
 
 void add_case_options(CLI::App& command, PrepareArguments& options) {
     add_input_options(command, options.input);
+    add_mask_is(command, options.input);
     add_neighbours(command, options.input);
     command
         .add_option("--recipe", options.recipe,

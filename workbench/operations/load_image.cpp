@@ -5,10 +5,13 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/formats/image_file.h"
+#include "geometry/image/mask_grid.h"
 #include "geometry/image/threshold.h"
 #include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/wording.h"
 #include "workbench/case/point_json.h"
+#include "workbench/operations/load_image/label_map.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {
@@ -105,27 +108,90 @@ nlohmann::ordered_json report_of(const ImageFile& file, const Image& image) {
             {"kind", to_string(judge(image).kind)}};
 }
 
+std::string grid_text(const Image& image) {
+    std::ostringstream text;
+    text << image.size[0] << " x " << image.size[1] << " x " << image.size[2] << " voxels of "
+         << formatted(image.spacing().x()) << " x " << formatted(image.spacing().y()) << " x "
+         << formatted(image.spacing().z()) << " mm";
+    return text.str();
+}
+
+/// More of a mask beyond its image is worth a warning.
+constexpr double kNoticeableLoss = 0.001;
+
+/// The mask on the image's grid; the report and warnings say what was done for it.
+Image placed_mask(const Image& image, const Image& mask, Outcome& outcome,
+                  nlohmann::ordered_json& report) {
+    const PlacedMask placed = mask_on_grid(image, mask);
+    static constexpr const char* kGrids[] = {"same", "part of the image's lattice", "resampled"};
+    report["mask_grid"] = kGrids[static_cast<std::size_t>(placed.grid)];
+    if (placed.grid == MaskGrid::Resampled)
+        outcome.warnings.push_back(
+            {.code = "mask-resampled",
+             .words = {{"mask", grid_text(mask)}, {"image", grid_text(image)}}});
+    if (placed.beyond > kNoticeableLoss)
+        outcome.warnings.push_back(
+            {.code = "mask-beyond-image", .figures = {{"lost_percent", 100.0 * placed.beyond}}});
+    return placed.mask;
+}
+
+/// What names labels is no text for intensities.
+void refuse_choice(const Arguments& arguments, const std::string& what) {
+    if (arguments.has("label"))
+        throw UsageError("label chooses segments of a label map, but " + what);
+}
+
+void add_segments(const Segmentation& segmentation, const Image& labels,
+                  nlohmann::ordered_json& report) {
+    if (segmentation.empty()) return;
+    auto list = nlohmann::ordered_json::array();
+    for (const auto& [label, volume] : label_volumes(labels))
+        list.push_back({{"label", label},
+                        {"name", name_of_label(segmentation.segments, label)},
+                        {"volume_ml", volume / 1000.0}});
+    report["segments"] = list;
+    if (!segmentation.vessel.empty()) report["vessel_labels"] = segmentation.vessel;
+}
+
 void load_mask(const Arguments& arguments, const Image& image, Outcome& outcome,
                nlohmann::ordered_json& report) {
-    const ImageFile file = read_image_file(arguments.text("mask"));
-    Image mask = mask_in_millimetres(file, arguments.has("units"),
-                                     millimetres_in(outcome.resolved.text("units")));
-    require_same_place(image, mask);
-    mask.index_to_patient = image.index_to_patient;
-    const Image usable = usable_mask(mask, outcome);
+    const std::string choice = arguments.optional_text("label").value_or("");
+    ImageFile file = read_segmentation_file(arguments.text("mask"));
+    join_layers(file, choice);
+    const Image mask = mask_in_millimetres(file, arguments.has("units"),
+                                           millimetres_in(outcome.resolved.text("units")));
+    const Image whole = usable_mask(mask, outcome);
+    const Image usable = placed_mask(image, whole, outcome, report);
     const auto inside = std::count_if(usable.voxels->begin(), usable.voxels->end(),
                                       [](float v) { return v > 0.0f; });
     if (inside == 0) throw InvalidInput("the mask is empty: none of its voxels is inside");
     report["mask_voxels"] = inside;
     report["mask_labels"] = labels_of(usable);
     outcome.scene.mask = usable;
+    if (outcome.resolved.has("mask_iso"))
+        return refuse_choice(arguments, "the mask is bounded by a value");
+    outcome.scene.segmentation = segmentation_of(usable, file.segments, choice);
+    add_segments(outcome.scene.segmentation, usable, report);
+}
+
+/// The names of an image's own labels, and what is chosen of them.
+void name_labels(const Arguments& arguments, const ImageFile& file, const Image& image,
+                 Outcome& outcome, nlohmann::ordered_json& report) {
+    if (file.segments.empty() && judge(image).kind != ImageKind::Labels)
+        return refuse_choice(arguments, "the image holds none");
+    outcome.scene.segmentation =
+        segmentation_of(image, file.segments, arguments.optional_text("label").value_or(""));
+    add_segments(outcome.scene.segmentation, image, report);
 }
 
 Outcome load_image(const Scene& scene, const Arguments& arguments, Progress& progress) {
     Outcome outcome;
     outcome.resolved = arguments;
     progress.report(0.0, "reading the image");
-    const ImageFile file = read_image_file(arguments.text("file"));
+    const bool with_mask = arguments.has("mask");
+    ImageFile file = with_mask ? read_image_file(arguments.text("file"))
+                               : read_segmentation_file(arguments.text("file"));
+    join_layers(file, arguments.optional_text("label").value_or(""));
     const Image image = in_millimetres(file, outcome);
     const auto [least, most] = std::minmax_element(image.voxels->begin(), image.voxels->end());
     if (*most <= *least)
@@ -136,7 +202,10 @@ Outcome load_image(const Scene& scene, const Arguments& arguments, Progress& pro
     outcome.scene = scene;
     outcome.scene.image = image;
     outcome.scene.mask.reset();
-    if (arguments.has("mask")) {
+    outcome.scene.segmentation = {};
+    if (!with_mask) {
+        name_labels(arguments, file, image, outcome, report);
+    } else {
         progress.report(0.6, "reading the mask");
         load_mask(arguments, image, outcome, report);
     }
@@ -156,7 +225,12 @@ Operation load_image_operation() {
                 {{.name = "file", .type = File, .help = image_formats_text(), .required = true},
                  {.name = "mask",
                   .type = File,
-                  .help = "segmentation on the same grid: labels (0 is outside) or a level set"},
+                  .help = "segmentation of the image: labels (0 is outside) or a level set; on "
+                          "another grid than the image's it is resampled by shape"},
+                 {.name = "label",
+                  .type = Text,
+                  .help = "segments that are the vessel, of the mask, else of the label map: names "
+                          "or labels, as artery or 1,2, or all; default: extract-surface chooses"},
                  {.name = "units",
                   .type = Choice,
                   .help = "unit of length of the file; default: the unit stated in the file, else "

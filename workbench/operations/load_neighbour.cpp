@@ -1,17 +1,34 @@
+#include <algorithm>
 #include <cmath>
 
 #include <nlohmann/json.hpp>
 
 #include "geometry/image/extract_surface.h"
+#include "geometry/image/threshold.h"
 #include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
+#include "workbench/case/label_choice.h"
 #include "workbench/operations/shared/surface_argument.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {
 
 namespace {
+
+/// The labels that the arguments list or name.
+std::vector<int> labels_of_neighbour(const Scene& scene, const Arguments& arguments) {
+    if (const auto name = arguments.optional_text("segment"))
+        return labels_named(*name, scene.segmentation.segments,
+                            labels_of(scene.mask ? *scene.mask : *scene.image));
+    std::vector<int> labels;
+    for (const double label : arguments.list("labels")) {
+        if (label != std::floor(label) || label < 1.0 || label > 1e6)
+            throw UsageError("load-neighbour: labels are integers, 1 or above");
+        labels.push_back(static_cast<int>(label));
+    }
+    return labels;
+}
 
 Surface surface_of_labels(const Scene& scene, const Arguments& arguments,
                           const Progress& progress) {
@@ -24,16 +41,17 @@ Surface surface_of_labels(const Scene& scene, const Arguments& arguments,
                                                         ? MaskSurface::Smooth
                                                         : MaskSurface::Midway,
                                     .bodies = Bodies::All};
-    for (const double label : arguments.list("labels")) {
-        if (label != std::floor(label) || label < 1.0 || label > 1e6)
-            throw UsageError("load-neighbour: labels are integers, 1 or above");
-        parameters.labels.push_back(static_cast<int>(label));
-    }
+    parameters.labels = labels_of_neighbour(scene, arguments);
     return extract_surface(*scene.image, scene.mask, parameters, progress).surface;
 }
 
+/// One of them says what the neighbour is.
+constexpr const char* kSources[] = {"file", "labels", "segment"};
+
 Outcome load(const Scene& scene, const Arguments& arguments, Progress& progress) {
-    if (arguments.has("file") == arguments.has("labels"))
+    const auto given =
+        std::ranges::count_if(kSources, [&](const char* source) { return arguments.has(source); });
+    if (given != 1)
         throw DiagnosedUsage(
             {.code = "neighbour-without-source",
              .operation = "load-neighbour",
@@ -78,6 +96,10 @@ Operation load_neighbour_operation() {
                             .type = List,
                             .help = "labels of the mask or label map instead of a file, as 1,2,3",
                             .minimum = 1},
+                           {.name = "segment",
+                            .type = Text,
+                            .help = "names of segments of the mask or label map instead of labels, "
+                                    "as bone"},
                            {.name = "mask_surface",
                             .type = Choice,
                             .default_value = "smooth",

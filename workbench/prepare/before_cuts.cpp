@@ -49,7 +49,8 @@ BeforeCuts before_cuts(const InputOptions& options, const std::string& purpose,
                        const std::vector<std::string>& settings, const Teller& tell,
                        const Progress& progress) {
     if (options.input.ends_with(".vbench")) return of_project(options.input, progress);
-    const Input input = resolve_input(options, progress.part(0.0, 0.02));
+    Input input = resolve_input(options, progress.part(0.0, 0.02));
+    take_settings_of_mask(input, settings);
     Recipe recipe = input_recipe(input, purpose, own_recipe(input, purpose));
     set_arguments(recipe, settings);
     const auto cut = std::ranges::find_if(recipe, cuts_ends);

@@ -38,7 +38,10 @@ void change_entry(Json& entry, const ChangeFile& change) {
     for (const char* key : {"arguments", "otherwise"})
         if (const auto given = entry.find(key); operation != nullptr && given != entry.end())
             change_files(*operation, *given, change);
-    if (const auto made = entry.find("unless_made"); made != entry.end())
+    const auto made = entry.find("unless_made");
+    if (made != entry.end() && made->is_array())
+        for (Json& one : *made) change_entry(one, change);
+    else if (made != entry.end())
         change_entry(*made, change);
 }
 

@@ -22,6 +22,8 @@ using Names = std::vector<std::string>;
 
 const Names kEntryKeys = {"operation",     "arguments",   "step",      "optional",
                           "unless_closed", "unless_made", "otherwise", "when"};
+/// Arguments of the ways to extract that take the mask as a region for intensities.
+const Names kRegionArguments = {"threshold", "iso", "inside", "dilation", "mask_surface"};
 const Names kGateKeys = {"require", "when"};
 const Names kMadeKeys = {"operation", "arguments"};
 const Names kChangeKeys = {"operation", "step", "arguments"};
@@ -51,6 +53,19 @@ Json with_purpose(const std::string& name, const Json& value, const RecipeUse& u
     if (purpose == purposes().end())
         throw UsageError(name + " is $purpose, but the recipe is for no purpose");
     return purpose->name;
+}
+
+constexpr const char* kMask = "$mask";
+
+/// "$mask" as the method of extracting: the wall if a drawn mask is it, unless the entry has an
+/// argument of another way to use the mask.
+Json with_mask(const Json& arguments, const Json& value, const RecipeUse& use) {
+    if (value != kMask) return value;
+    const bool is_wall = std::ranges::any_of(
+        use, [](const std::string& word) { return word == kWallMask || word == kDrawnMask; });
+    const bool other_way = std::ranges::any_of(
+        kRegionArguments, [&](const std::string& name) { return arguments.contains(name); });
+    return is_wall && !other_way ? "wall" : "auto";
 }
 
 /// Reads the parts of an object of a recipe, and notes what is wrong about each.
@@ -101,7 +116,8 @@ public:
             if (!object.is_object()) return void(arguments_from_json(operation, object));
             for (const auto& [name, value] : object.items())
                 note_faults(faults_, place_ + "/" + key + "/" + name, [&] {
-                    const Json one = use ? with_purpose(name, value, *use) : value;
+                    const Json one =
+                        use ? with_mask(object, with_purpose(name, value, *use), *use) : value;
                     given.set(arguments_from_json(operation, Json{{name, one}}));
                 });
         });
@@ -120,15 +136,21 @@ public:
         return step;
     }
 
-    /// An edit that replaces the entry.
-    std::optional<GivenArguments> made() {
-        std::optional<GivenArguments> made;
-        read("unless_made", [&](const Json& json) {
+    /// Edits that replace the entry.
+    std::vector<GivenArguments> made() {
+        std::vector<GivenArguments> made;
+        const auto take = [&](const Json& json, const std::string& place) {
             if (!json.is_object()) refuse_json(json, "unless_made", "an object");
-            EntryReader inner(json, place_ + "/unless_made", faults_, "unless_made");
+            EntryReader inner(json, place, faults_, "unless_made");
             inner.refuse_other_keys(kMadeKeys);
             if (const Operation* operation = inner.operation())
-                made = inner.arguments("arguments", *operation);
+                made.push_back(inner.arguments("arguments", *operation));
+        };
+        read("unless_made", [&](const Json& json) {
+            const std::string place = place_ + "/unless_made";
+            if (!json.is_array()) return take(json, place);
+            for (std::size_t i = 0; i < json.size(); ++i)
+                take(json[i], place + "/" + std::to_string(i));
         });
         return made;
     }
@@ -167,6 +189,11 @@ RecipeEntry entry_of(EntryReader& reader, const Json& json, const Operation& ope
                       .optional = reader.flag("optional"),
                       .unless_closed = reader.flag("unless_closed"),
                       .unless_made = reader.made()};
+    const auto arguments = json.find("arguments");
+    entry.if_drawn = arguments != json.end() && arguments->is_object() &&
+                     arguments->value("method", Json()) == kMask &&
+                     entry.given->is_word("method", "wall") &&
+                     std::ranges::count(use, kWallMask) == 0;
     if (json.contains("otherwise") && !json["otherwise"].empty())
         entry.otherwise = reader.arguments("otherwise", operation);
     return entry;
@@ -178,6 +205,17 @@ bool is_object(const Json& json, const std::string& place, RecipeFaults& faults)
 }
 
 }  // namespace
+
+bool limits_region(std::string_view setting) {
+    const auto names = [&](std::string_view operation, const Names& parameters) {
+        return std::ranges::any_of(parameters, [&](const std::string& parameter) {
+            return setting.starts_with(std::string(operation) + "." + parameter + "=");
+        });
+    };
+    Names own = kRegionArguments;
+    own.emplace_back("method");
+    return names("extract-surface", own) || names("load-image", {"mask_iso", "mask_inside"});
+}
 
 std::vector<std::string> use_words() {
     Names words = {"surface", "image", "mask"};

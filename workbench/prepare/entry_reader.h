@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
@@ -14,6 +15,10 @@ namespace vesselbench {
 
 /// The words that an entry's "when" may contain, each also with the prefix no-.
 [[nodiscard]] std::vector<std::string> use_words();
+
+/// True for a setting "operation.parameter=value" by which the mask is not the vessel's wall, but a
+/// region for intensities, or another one is chosen.
+[[nodiscard]] bool limits_region(std::string_view setting);
 
 /// What an entry of a recipe says.
 struct ReadEntry {

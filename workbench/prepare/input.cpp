@@ -1,5 +1,7 @@
 #include "workbench/prepare/input.h"
 
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 #include <stdlib.h>
 
@@ -20,6 +22,7 @@
 #include "workbench/phantoms/phantom_json.h"
 #include "workbench/prepare/bundled_cases.h"
 #include "workbench/prepare/case_files.h"
+#include "workbench/prepare/entry_reader.h"
 
 namespace vesselbench {
 
@@ -27,6 +30,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
+
+constexpr const char* kRegion = "region";
 
 /// A new folder for files with the lifetime of the input.
 class TemporaryFolder {
@@ -157,6 +162,9 @@ Recipe neighbour_entries(const InputOptions& options, bool of_image) {
                                  ": labels need a label map, but the input is a surface");
             entry.given.set("name", named("label-" + neighbour));
             entry.given.set("labels", neighbour);
+        } else if (of_image && names_segment(neighbour)) {
+            entry.given.set("name", named(neighbour));
+            entry.given.set("segment", neighbour);
         } else {
             const fs::path file = neighbour;
             if (!file_exists(file))
@@ -177,10 +185,24 @@ RecipeEntry source_entry(const Input& input) {
     entry.given.set("file", input.file.string());
     if (!input.mask.empty()) entry.given.set("mask", input.mask.string());
     if (!input.units.empty()) entry.given.set("units", input.units);
+    if (!input.label.empty()) entry.given.set("label", input.label);
     return entry;
 }
 
 }  // namespace
+
+bool names_segment(const std::string& neighbour) {
+    const auto is_named = [&](const SurfaceFormat& format) {
+        return is_named_for_reading(format, neighbour);
+    };
+    return !neighbour.empty() && neighbour.find('/') == std::string::npos &&
+           !is_label_list(neighbour) && std::ranges::none_of(surface_formats(), is_named);
+}
+
+void take_settings_of_mask(Input& input, std::span<const std::string> settings) {
+    if (input.mask_is.empty() && std::ranges::any_of(settings, limits_region))
+        input.mask_is = kRegion;
+}
 
 Input resolve_input(const InputOptions& options, const Progress& progress) {
     Input input;
@@ -203,6 +225,11 @@ Input resolve_input(const InputOptions& options, const Progress& progress) {
     if (!options.units.empty()) input.units = options.units;
     if (!input.mask.empty() && !file_exists(input.mask))
         throw IoError("the mask '" + input.mask.filename().string() + "' does not exist");
+    input.label = options.label;
+    input.mask_is = options.mask_is;
+    if (!input.label.empty() && !input.is_image)
+        throw UsageError("--label chooses segments of a label map, but '" + input.name +
+                         "' is a surface");
     if (!input.mask.empty() && !input.is_image)
         throw UsageError("--mask requires an image, but '" + input.name + "' is a surface");
     input.neighbours = neighbour_entries(options, input.is_image);
@@ -212,6 +239,8 @@ Input resolve_input(const InputOptions& options, const Progress& progress) {
 RecipeUse recipe_use(const Input& input, const std::string& purpose) {
     RecipeUse use = {input.is_image ? "image" : "surface", purpose};
     if (!input.mask.empty()) use.emplace_back("mask");
+    if (!input.mask.empty() && input.mask_is != kRegion)
+        use.emplace_back(input.mask_is.empty() ? kDrawnMask : kWallMask);
     return use;
 }
 

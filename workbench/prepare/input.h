@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,12 +19,15 @@ namespace vesselbench {
 struct InputOptions {
     std::string
         input;  ///< a surface, an image, a folder of DICOM slices or with case.json, a bundled case
-    std::string mask;   ///< image file on the same grid; empty: none, or the case's own
+    std::string mask;   ///< image file of labels or a level set; empty: none, or the case's own
     std::string units;  ///< "mm", "cm" or "m"; empty: as the file says, or the only one that fits
-    /// Structures beside the vessel, each a surface file, or labels of the label map, "7" or "7,8".
+    /// Structures beside the vessel, each a surface file, or labels of the label map, "7" or "7,8",
+    /// or the name of one of its segments.
     std::vector<std::string> neighbours = {};
     /// UTF-8, in the report and in messages; empty: the file's or the case's. A project keeps it.
     std::string name = {};
+    std::string label = {};  ///< segments that are the vessel, "artery" or "1,2"; empty: not chosen
+    std::string mask_is = {};  ///< "wall" or "region"; empty: a wall if it is drawn
 };
 
 /// The INPUT after inspection.
@@ -34,12 +38,21 @@ struct Input {
     std::filesystem::path file;  ///< surface, image, or folder of DICOM slices
     std::filesystem::path mask;
     std::string units;
+    std::string label;             ///< as given
+    std::string mask_is;           ///< as given
     Recipe neighbours;             ///< the edits that load them
     std::optional<Surface> exact;  ///< the true surface, if a phantom provides it
     std::shared_ptr<const nlohmann::ordered_json> recipes;  ///< a case's own: by "cfd" and "rp"
     std::filesystem::path folder;      ///< of a case: what its recipes name is in it
     std::shared_ptr<const void> keep;  ///< folder of files made for this input; removed with it
 };
+
+/// True for a text that names a segment of a label map: no labels, and not named like a surface.
+[[nodiscard]] bool names_segment(const std::string& neighbour);
+
+/// Settings by which a mask is a region are as good as --mask-is region.
+/// \param settings "operation.parameter=value"
+void take_settings_of_mask(Input& input, std::span<const std::string> settings);
 
 /// Inspects INPUT and reads the description of a case; of surfaces and images it determines only
 /// the kind. A phantom's image and mask are created.

@@ -11,6 +11,7 @@
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/openings/opening_axis.h"
 #include "workbench/case/json_text.h"
+#include "workbench/case/label_choice.h"
 #include "workbench/case/purposes.h"
 #include "workbench/export/products.h"
 #include "workbench/operations/table.h"
@@ -18,6 +19,7 @@
 #include "workbench/prepare/apply_recipe.h"
 #include "workbench/prepare/case_files.h"
 #include "workbench/prepare/end_question.h"
+#include "workbench/prepare/extraction_entry.h"
 #include "workbench/prepare/kept_recipe.h"
 #include "workbench/prepare/model_check.h"
 #include "workbench/prepare/prepare_report.h"
@@ -306,10 +308,17 @@ std::size_t begin_project(const PrepareOptions& options, const Input& input,
     return kept_reviewers(project, options.purpose, reviewers_asked(options, input, recipe_json));
 }
 
+/// The vessel is not chosen among the labels: there is no model yet to go on with.
+bool lacks_label(const std::exception& error) {
+    const auto* diagnosed = dynamic_cast<const Diagnosed*>(&error);
+    return diagnosed != nullptr && diagnosed->diagnostics().front().code == kLabelUnchosen;
+}
+
 /// Of a preparation that stopped: the project, if there is an edit in it, and how to go on.
 void keep_what_was_made(Session& session, const PrepareOptions& options, bool any_edit,
                         const std::exception& error, const Teller& tell) {
-    const bool unusable = dynamic_cast<const UnusableSource*>(&error) != nullptr;
+    const bool unusable =
+        dynamic_cast<const UnusableSource*>(&error) != nullptr || lacks_label(error);
     if (unusable ? !options.resume : !any_edit) return session.discard();
     if (unusable || dynamic_cast<const UsageError*>(&error) != nullptr) return;
     if (const auto* failure = dynamic_cast<const DiagnosedFailure*>(&error))
@@ -328,6 +337,7 @@ PrepareSummary prepare(const PrepareOptions& options, const Teller& tell,
                          options.out.filename().string() + "' to go on with");
     Input input = resolve_input(named_input(options), progress.part(0.0, 0.02));
     if (options.resume) take_kept_recipes(input, project);
+    take_settings_of_mask(input, options.arguments);
     PrepareOptions for_recipe = options;
     FlowSettings flow(options.resume ? stored_text(project, StoredText::Flow) : "");
     flow.take(for_recipe.arguments);
@@ -384,9 +394,14 @@ Session start_project(const fs::path& project, const Input& input, SessionOption
 void new_project(const fs::path& project, const InputOptions& options, const std::string& author,
                  const Teller& tell, const Progress& progress) {
     const Input input = resolve_input(options, progress.part(0.0, 0.3));
-    const Session session = start_project(
-        project, input, {.author = author, .find = find_operation}, tell, progress.part(0.3, 1.0));
+    Session session = start_project(project, input, {.author = author, .find = find_operation},
+                                    tell, progress.part(0.3, 1.0));
     fold_log(session);
+    const Scene scene = session.scene("");
+    if (takes_unchosen_labels({}, scene))
+        tell("labels, of which extract-surface labels=N takes some:" +
+             label_list(scene.segmentation.segments,
+                        label_sizes(scene.mask ? *scene.mask : *scene.image)));
 }
 
 }  // namespace vesselbench

@@ -60,7 +60,8 @@ Json recipe_to_json(const Recipe& recipe) {
         if (entry.step) json["step"] = to_string(*entry.step);
         if (entry.optional) json["optional"] = true;
         if (entry.unless_closed) json["unless_closed"] = true;
-        if (entry.unless_made) json["unless_made"] = json_of(*entry.unless_made);
+        for (const GivenArguments& made : entry.unless_made)
+            json["unless_made"].push_back(json_of(made));
         if (entry.otherwise) json["otherwise"] = to_json(*entry.otherwise);
         list.push_back(std::move(json));
     }

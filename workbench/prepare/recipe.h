@@ -15,11 +15,13 @@ namespace vesselbench {
 ///
 ///     "operation": name           "arguments": {parameter: value}    "step": name
 ///     "optional": true|false      "otherwise": {parameter: value}    "unless_closed": true|false
-///     "when": word or [words]     "unless_made": {"operation": name, "arguments": {...}}
+///     "when": word or [words]     "unless_made": {"operation": name, "arguments": {...}} or a list
 ///
 /// An entry {"require": "accepted=2", "when": ...} is none of them: reviewers_required() reads it.
 /// An entry is used if each word of its "when" is in `use`, and each word prefixed by "no-" is not.
-/// The argument "$purpose" is the purpose's name: presets are named like purposes. The arguments of
+/// The argument "$purpose" is the purpose's name: presets are named like purposes. "$mask" is the
+/// method `wall` where a drawn mask is the vessel's wall and the entry has no argument of another
+/// way to use it, else `auto`. The arguments of
 /// all entries are checked, also of those that are not used; required ones may still be absent.
 /// \throw UsageError that names the entry and the mistake
 [[nodiscard]] Recipe recipe_from_json(const nlohmann::ordered_json& list, const RecipeUse& use);

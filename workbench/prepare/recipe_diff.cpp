@@ -23,7 +23,8 @@ struct WordedEntry {
 };
 
 std::string value_text(const Operation& operation, const std::string& name, const Json& value) {
-    if (value == "$purpose") return "$purpose";
+    for (const char* decided_later : {"$purpose", "$mask"})
+        if (value == decided_later) return decided_later;
     const GivenArguments given = arguments_from_json(operation, Json{{name, value}});
     return to_text(given->values().at(name));
 }

@@ -10,6 +10,7 @@
 #include "geometry/vessel/openings/vessel_check.h"
 #include "workbench/case/diagnostic_words.h"
 #include "workbench/operations/table.h"
+#include "workbench/prepare/extraction_entry.h"
 #include "workbench/report/log_json.h"
 #include "workbench/session/surface_change.h"
 
@@ -108,7 +109,7 @@ public:
 
     void apply(const RecipeEntry& entry, const Progress& progress) {
         if (watch_.before) watch_.before(step_of(entry));
-        const std::optional<LogEntry> done = made(entry, progress);
+        const std::optional<LogEntry> done = made(extraction_entry(entry, session_), progress);
         if (done && watch_.after) watch_.after(*done);
     }
 
@@ -273,9 +274,10 @@ void Teller::warn(const Diagnostic& warning) const {
 }
 
 bool is_replaced(const RecipeEntry& entry, const std::vector<LogEntry>& log) {
-    return entry.unless_made && std::ranges::any_of(log, [&](const LogEntry& edit) {
-               return was_made(edit, *entry.unless_made);
-           });
+    return std::ranges::any_of(entry.unless_made, [&](const GivenArguments& sought) {
+        return std::ranges::any_of(log,
+                                   [&](const LogEntry& edit) { return was_made(edit, sought); });
+    });
 }
 
 std::vector<Diagnostic> warnings_of(const LogEntry& entry) {

@@ -96,11 +96,17 @@ bool takes_purpose(const Parameter& parameter) {
     });
 }
 
+/// True for a choice that may be "$mask".
+bool takes_mask(const Parameter& parameter) {
+    return parameter.name == "method" && std::ranges::count(parameter.choices, "wall") > 0;
+}
+
 Json of_parameter(const Parameter& parameter) {
     std::vector<Json> forms = forms_of(parameter);
     if (!parameter.choices.empty()) {
         Json words = parameter.choices;
         if (takes_purpose(parameter)) words.push_back("$purpose");
+        if (takes_mask(parameter)) words.push_back("$mask");
         forms.insert(forms.begin(), one_of(std::move(words)));
     }
     Json json = forms.size() == 1 ? forms.front() : Json{{"anyOf", forms}};
@@ -171,14 +177,15 @@ Json when_schema() {
 }
 
 Json entry_schema() {
+    const Json made = of_operation(Json::object(), {"arguments"});
     return of_operation(
         {{"step", step_schema()},
          {"optional", described("if it cannot be done, the recipe continues with a warning",
                                 of_type("boolean"))},
          {"unless_closed",
           described("skipped if the surface has no border at that point", of_type("boolean"))},
-         {"unless_made", described("skipped if such an edit was made",
-                                   of_operation(Json::object(), {"arguments"}))},
+         {"unless_made", described("skipped if such an edit, or one of them, was made",
+                                   {{"anyOf", Json::array({made, list(made)})}})},
          {"when", reference("when")}},
         {"arguments", "otherwise"});
 }

@@ -128,7 +128,7 @@ Recipe rest_of(const Recipe& recipe, const Snapshot& made, const std::string& va
     Recipe rest;
     for (std::size_t i = 0; i < recipe.size(); ++i) {
         const bool may_lack =
-            recipe[i].optional || recipe[i].unless_closed || recipe[i].unless_made;
+            recipe[i].optional || recipe[i].unless_closed || !recipe[i].unless_made.empty();
         const bool skipped = i < behind_last && may_lack &&
                              std::ranges::none_of(made.log, [&](const LogEntry& entry) {
                                  return has_place_of(entry.edit, recipe[i], variant);

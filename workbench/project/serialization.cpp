@@ -10,7 +10,8 @@ namespace vesselbench {
 
 namespace {
 
-constexpr std::uint8_t kManifestVersion = 1;
+/// A scene without names of segments is written as version 1, whose bytes stay what they were.
+constexpr std::uint8_t kWithoutSegments = 1, kManifestVersion = 2;
 constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
 /// Lists parts and gives their indices.
@@ -55,6 +56,18 @@ void put_sampling(ByteWriter& writer, const Sampling& sampling) {
     for (int i = 0; i < 9; ++i) writer.put(sampling.axes.data()[i]);
     for (int i = 0; i < 3; ++i) writer.put(sampling.spacing[i]);
     writer.put(sampling.confidence);
+}
+
+void put_segmentation(ByteWriter& writer, const Segmentation& segmentation) {
+    writer.put<std::uint64_t>(segmentation.segments.size());
+    for (const Segment& segment : segmentation.segments) {
+        writer.put<std::int32_t>(segment.label);
+        writer.put_text(segment.name);
+        writer.put<bool>(segment.colour.has_value());
+        if (segment.colour) writer.put(*segment.colour);
+    }
+    writer.put<std::uint64_t>(segmentation.vessel.size());
+    for (const int label : segmentation.vessel) writer.put<std::int32_t>(label);
 }
 
 template <class T>
@@ -128,6 +141,19 @@ Sampling get_sampling(ByteReader& reader) {
     return sampling;
 }
 
+Segmentation get_segmentation(ByteReader& reader) {
+    Segmentation segmentation;
+    for (auto left = reader.get<std::uint64_t>(); left > 0; --left) {
+        Segment segment{.label = reader.get<std::int32_t>(), .name = reader.get_text()};
+        if (reader.get<std::uint8_t>() != 0)
+            segment.colour = reader.get<std::array<std::uint8_t, 3>>();
+        segmentation.segments.push_back(std::move(segment));
+    }
+    for (auto left = reader.get<std::uint64_t>(); left > 0; --left)
+        segmentation.vessel.push_back(reader.get<std::int32_t>());
+    return segmentation;
+}
+
 std::map<const void*, std::uint32_t> places_of(const std::vector<ScenePart>& parts) {
     std::map<const void*, std::uint32_t> places;
     for (std::uint32_t i = 0; i < parts.size(); ++i) places.try_emplace(identity(parts[i]), i);
@@ -139,7 +165,8 @@ std::map<const void*, std::uint32_t> places_of(const std::vector<ScenePart>& par
 SceneParts take_apart(const Scene& scene) {
     PartList list;
     ByteWriter writer;
-    writer.put(kManifestVersion);
+    const bool segmented = !scene.segmentation.empty();
+    writer.put(segmented ? kManifestVersion : kWithoutSegments);
     writer.put<bool>(scene.surface.has_value());
     if (scene.surface) put_surface(writer, list, *scene.surface);
     writer.put<bool>(scene.image.has_value());
@@ -154,14 +181,17 @@ SceneParts take_apart(const Scene& scene) {
         put_surface(writer, list, surface);
     }
     writer.put(list.index_of(scene.volume_mesh));
+    if (segmented) put_segmentation(writer, scene.segmentation);
     return {writer.take(), list.take()};
 }
 
 Scene put_together(std::span<const std::byte> manifest, const std::vector<ScenePart>& parts) {
     ByteReader reader(manifest);
-    if (const auto version = reader.get<std::uint8_t>(); version != kManifestVersion)
+    const auto version = reader.get<std::uint8_t>();
+    if (version < kWithoutSegments || version > kManifestVersion)
         throw InvalidInput("the stored scene has version " + std::to_string(version) +
-                           "; this program reads version " + std::to_string(kManifestVersion));
+                           "; this program reads up to version " +
+                           std::to_string(kManifestVersion));
     Scene scene;
     if (reader.get<std::uint8_t>() != 0) scene.surface = get_surface(reader, parts);
     if (reader.get<std::uint8_t>() != 0) scene.image = get_image(reader, parts);
@@ -172,6 +202,7 @@ Scene put_together(std::span<const std::byte> manifest, const std::vector<SceneP
         scene.neighbours[name] = get_surface(reader, parts);
     }
     scene.volume_mesh = part_at<VolumeMesh>(parts, reader.get<std::uint32_t>());
+    if (version == kManifestVersion) scene.segmentation = get_segmentation(reader);
     return scene;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "geometry/kernel/label_table_places.h"
 #include "geometry/kernel/wording.h"
 
 namespace vesselbench {
@@ -72,6 +73,9 @@ std::vector<fs::path> places_read_by(const Operation& operation, const Arguments
     for (const fs::path file : files_in(operation, arguments)) {
         places.push_back(file);
         if (is_detached_header(file)) places.push_back(fs::absolute(file).parent_path());
+        std::error_code ignored;
+        for (const fs::path& table : label_table_places(file))
+            if (fs::is_regular_file(table, ignored)) places.push_back(table);
     }
     return places;
 }

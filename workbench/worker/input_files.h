@@ -21,7 +21,7 @@ namespace vesselbench {
                                                       const Arguments& arguments);
 
 /// What the operation has to be able to open: its files and folders, and of a detached header also
-/// the folder that it lies in.
+/// the folder that it lies in, and of a label map the table beside it that names its labels.
 [[nodiscard]] std::vector<std::filesystem::path> places_read_by(const Operation& operation,
                                                                 const Arguments& arguments);
 

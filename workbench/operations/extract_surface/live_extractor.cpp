@@ -36,8 +36,13 @@ ExtractionParameters coarsened(ExtractionParameters parameters, const VoxelSteps
     return parameters;
 }
 
+/// Without an iso-value.
+bool of_voxels(ExtractionMethod method) {
+    return method == ExtractionMethod::Labels || method == ExtractionMethod::Wall;
+}
+
 LiveExtractor::State state_of(Extraction found) {
-    const bool labels = found.method == ExtractionMethod::Labels;
+    const bool labels = of_voxels(found.method);
     return {.surface = std::move(found.surface),
             .threshold = labels ? std::nullopt : std::optional(found.threshold),
             .inside_below = found.inside_below,
@@ -46,8 +51,9 @@ LiveExtractor::State state_of(Extraction found) {
 
 }  // namespace
 
-LiveExtractor::LiveExtractor(Image image, std::optional<Image> mask, std::size_t most)
-    : with_mask_(mask.has_value()), extractor_(image, mask) {
+LiveExtractor::LiveExtractor(Image image, std::optional<Image> mask, std::size_t most,
+                             std::vector<int> vessel)
+    : with_mask_(mask.has_value()), vessel_(std::move(vessel)), extractor_(image, mask) {
     histogram_ = std::make_shared<const ImageHistogram>(histogram_of(image, kClasses));
     make_coarse(image, mask, most);
 }
@@ -68,8 +74,8 @@ std::optional<LiveExtractor::State> LiveExtractor::coarse(const CheckedArguments
                                                           const Progress& progress) {
     if (!coarse_) return std::nullopt;
     const ExtractionParameters decided =
-        extractor_.decided(extraction_parameters(given, with_mask_), progress);
-    if (decided.method == ExtractionMethod::Labels) return std::nullopt;
+        extractor_.decided(extraction_parameters(given, with_mask_, vessel_), progress);
+    if (of_voxels(*decided.method)) return std::nullopt;
     try {
         return state_of(coarse_->extract(coarsened(decided, steps_), progress));
     } catch (const AlgorithmFailure&) {  // thin vessels may be seen in the whole image only
@@ -78,7 +84,8 @@ std::optional<LiveExtractor::State> LiveExtractor::coarse(const CheckedArguments
 }
 
 LiveExtractor::State LiveExtractor::whole(const CheckedArguments& given, const Progress& progress) {
-    State state = state_of(extractor_.extract(extraction_parameters(given, with_mask_), progress));
+    State state =
+        state_of(extractor_.extract(extraction_parameters(given, with_mask_, vessel_), progress));
     state.whole = true;
     return state;
 }

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "geometry/image/coarse_image.h"
 #include "geometry/image/extract_surface.h"
@@ -21,8 +22,10 @@ inline constexpr std::size_t kCoarseVoxels = 1'200'000;
 class LiveExtractor {
 public:
     /// \param most voxels of the coarse image
+    /// \param vessel labels that are taken unless the arguments name others; empty: all
     /// \throw InvalidInput as extract_surface()
-    LiveExtractor(Image image, std::optional<Image> mask, std::size_t most = kCoarseVoxels);
+    LiveExtractor(Image image, std::optional<Image> mask, std::size_t most = kCoarseVoxels,
+                  std::vector<int> vessel = {});
 
     struct State {
         Surface surface;
@@ -53,6 +56,7 @@ private:
     void make_coarse(const Image& image, const std::optional<Image>& mask, std::size_t most);
 
     bool with_mask_ = false;
+    std::vector<int> vessel_;
     SurfaceExtractor extractor_;
     std::optional<SurfaceExtractor> coarse_;  ///< none: the image is coarse enough
     VoxelSteps steps_ = {1, 1, 1};

@@ -13,6 +13,7 @@ std::optional<ExtractionMethod> method_from(const Arguments& arguments) {
     if (name == "threshold") return ExtractionMethod::Threshold;
     if (name == "labels") return ExtractionMethod::Labels;
     if (name == "masked") return ExtractionMethod::Masked;
+    if (name == "wall") return ExtractionMethod::Wall;
     return std::nullopt;
 }
 
@@ -42,7 +43,8 @@ Cleaning cleaning_from(const Arguments& arguments) {
 
 }  // namespace
 
-ExtractionParameters extraction_parameters(const Arguments& arguments, bool with_mask) {
+ExtractionParameters extraction_parameters(const Arguments& arguments, bool with_mask,
+                                           const std::vector<int>& vessel) {
     ExtractionParameters parameters;
     parameters.method = method_from(arguments);
     if (arguments.has("iso") && arguments.has("threshold"))
@@ -56,6 +58,7 @@ ExtractionParameters extraction_parameters(const Arguments& arguments, bool with
     if (const auto inside = arguments.optional_text("inside"))
         parameters.inside_below = *inside == "below";
     parameters.labels = labels_from(arguments);
+    if (parameters.labels.empty()) parameters.labels = vessel;
     const bool labels_alone = !parameters.labels.empty() && !parameters.threshold && !with_mask;
     if (labels_alone && !parameters.method) parameters.method = ExtractionMethod::Labels;
     parameters.mask_surface = mask_surface_from(arguments.text("mask_surface"));

@@ -63,7 +63,7 @@ ResumedRecipe missing_entries(const Snapshot& snapshot, const std::optional<Inpu
                               const Scene* scene, const std::string& purpose,
                               const std::vector<std::string>& done) {
     RecipeUse use = {scene != nullptr && scene->image ? "image" : "surface", purpose};
-    if (scene != nullptr && scene->mask) use.emplace_back("mask");
+    if (scene != nullptr && scene->mask) use.insert(use.end(), {"mask", kDrawnMask});
     const nlohmann::ordered_json own = input ? own_recipe(*input, purpose) : nullptr;
     Recipe recipe = own.is_null() ? default_recipe(use) : recipe_from_json(own, use);
     std::erase_if(recipe, [](const RecipeEntry& entry) {  // the project begins with its source

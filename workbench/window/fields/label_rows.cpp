@@ -19,8 +19,12 @@ namespace {
 
 constexpr float kMostRows = 8.0F;  ///< seen at once
 
-/// As the slices show it.
+/// The segment's own, else as the slices show it.
 Paint colour_of(const LabelRow& row) {
+    if (row.colour) {
+        const auto [red, green, blue] = *row.colour;
+        return paint(std::uint32_t{red} << 16U | std::uint32_t{green} << 8U | blue);
+    }
     const PixelColour colour = pixel_colour(category_colour(static_cast<std::size_t>(row.label)));
     const std::uint32_t red = colour[0], green = colour[1], blue = colour[2];
     return paint(red << 16U | green << 8U | blue);

@@ -25,6 +25,8 @@ bool LabelList::update(const Document& document, const OperationForm* form) {
     if (voxels != voxels_) {
         voxels_ = voxels;
         volumes_.clear();
+        segments_.clear();
+        if (image != nullptr) segments_ = document.current()->segmentation.segments;
         task_.forget();
         if (image != nullptr)
             task_.start([image = *image](const Progress&) {
@@ -46,13 +48,18 @@ std::vector<LabelRow> LabelList::rows(const FormField& field) const {
         taken = std::get<std::vector<double>>(checked_value(*field.parameter, Value(field.text)));
     }
     std::vector<LabelRow> rows;
-    for (const auto& [label, volume] : volumes_)
+    for (const auto& [label, volume] : volumes_) {
         rows.push_back({label, volume, std::ranges::count(taken, label) > 0});
+        const auto segment = std::ranges::find(segments_, label, &Segment::label);
+        if (segment == segments_.end()) continue;
+        rows.back().name = segment->name;
+        rows.back().colour = segment->colour;
+    }
     return rows;
 }
 
 std::string name_of(const LabelRow& row) {
-    return "Label " + std::to_string(row.label);
+    return row.name.empty() ? "Label " + std::to_string(row.label) : row.name;
 }
 
 std::string switched_label(std::vector<LabelRow> rows, int label) {

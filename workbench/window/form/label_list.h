@@ -1,11 +1,15 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "geometry/image/segment.h"
 #include "workbench/session/task.h"
 #include "workbench/window/case/document.h"
 #include "workbench/window/form/operation_form.h"
@@ -15,8 +19,11 @@ namespace vesselbench {
 /// A label that a form may take.
 struct LabelRow {
     int label = 0;
-    double volume = 0.0;  ///< [mm^3]
-    bool taken = false;   ///< as given, else as the operation decides
+    double volume = 0.0;    ///< [mm^3]
+    bool taken = false;     ///< as given, else as the operation decides
+    std::string name = {};  ///< of the segment; empty: it has none
+    /// Red, green, blue; none: that of the category.
+    std::optional<std::array<std::uint8_t, 3>> colour = std::nullopt;
 };
 
 /// The labels of the document's mask, else of its image, for a form that takes labels. They are
@@ -39,10 +46,11 @@ private:
 
     Task<Volumes> task_;
     Volumes volumes_;
+    std::vector<Segment> segments_;
     std::shared_ptr<const std::vector<float>> voxels_;  ///< whose labels these are
 };
 
-/// "Label 5"
+/// "artery", else "Label 5"
 [[nodiscard]] std::string name_of(const LabelRow& row);
 
 /// The field's text with a label more, or without it if it is taken; the last one stays.

@@ -33,7 +33,7 @@ private:
     LiveExtractor& extractor_of(const ExtractionQuestion& question) {
         if (extractor_ && base_ == question.base) return *extractor_;
         extractor_.reset();  // not both at once
-        extractor_.emplace(question.image, question.mask);
+        extractor_.emplace(question.image, question.mask, kCoarseVoxels, question.vessel);
         base_ = question.base;
         return *extractor_;
     }

@@ -13,7 +13,8 @@ namespace vesselbench {
 struct ExtractionQuestion {
     Image image;
     std::optional<Image> mask;
-    int base = 0;  ///< number of the image and the mask: equal ones are the same
+    std::vector<int> vessel;  ///< labels that were chosen
+    int base = 0;             ///< number of the image and the mask: equal ones are the same
     CheckedArguments arguments;
 };
 

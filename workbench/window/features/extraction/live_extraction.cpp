@@ -94,6 +94,7 @@ void LiveExtraction::ask_for(const LiveSmoothing::Followed& followed) {
         return ExtractionQuestion{
             .image = *scene.image,
             .mask = scene.mask,
+            .vessel = scene.segmentation.vessel,
             .base = base_number(),
             .arguments = checked_arguments(form.operation(), form.arguments())};
     });
