@@ -19,7 +19,7 @@ using Index = std::array<int, 3>;
 /// Where the zero set crosses to the voxels beside a chain, as a share of the way. A vessel that
 /// leaves a chain is less than two voxels wide. At 0.71 its section would have the area of a
 /// voxel's face; smoothing afterwards takes up to two fifths of the width of so few triangles.
-constexpr float kChainShare = 0.85f;
+constexpr float kChainShare = 0.95f;
 constexpr float kSheetShare = 0.5f;
 /// A voxel centre outside is at least this far from the surface [halves of the smallest edge].
 constexpr float kNearest = 1e-3f;
