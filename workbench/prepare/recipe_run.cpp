@@ -50,13 +50,14 @@ std::int64_t iterations_of(const LogEntry& entry) {
     return ran.has(kIterations) ? ran.integer(kIterations) : 0;
 }
 
-/// What the model's surface was made from.
+/// What the model's surface was made from: where voxels of labels alone decide about the inside, an
+/// extraction has no threshold.
 SurfaceSource source_of(const Session& session) {
     for (const LogEntry& entry : session.log()) {
-        if (entry.edit.operation != "extract-surface" || !entry.result) continue;
-        const std::string& method = entry.result->resolved.text("method");
-        return method == "labels" || method == "wall" ? SurfaceSource::Mask
-                                                      : SurfaceSource::Intensities;
+        if (entry.edit.operation != extracting_operation().name || !entry.result) continue;
+        const Arguments& ran = entry.result->resolved;
+        return ran.has("threshold") || ran.has("iso") ? SurfaceSource::Intensities
+                                                      : SurfaceSource::Mask;
     }
     return SurfaceSource::File;
 }
