@@ -3,18 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <memory>
-#include <optional>
 #include <utility>
 #include <vector>
 
 #include "geometry/image/voxel_band.h"
+#include "geometry/image/voxels.h"
 
 namespace vesselbench {
 
 namespace {
 
-using Index = std::array<int, 3>;
+/// u, v of a voxel in a layer.
+using LayerPlace = std::pair<int, int>;
 
 /// A wall that touches the border spreads behind it: the section within some voxels to the sides
 /// grows by the first factor from the contact to two layers behind it, and by the second one from
@@ -45,7 +45,7 @@ public:
 
     [[nodiscard]] bool is_in(int u, int v) const {
         if (u < 0 || v < 0 || u >= width() || v >= height()) return false;
-        Index at{};
+        VoxelIndex at{};
         at[axis_] = at_;
         at[u_] = u;
         at[v_] = v;
@@ -60,15 +60,15 @@ private:
 
 /// Calls visit(u, v) for the places at most `reach` from one.
 template <class Visit>
-void around(std::pair<int, int> at, int reach, const Visit& visit) {
+void around(LayerPlace at, int reach, const Visit& visit) {
     for (int v = at.second - reach; v <= at.second + reach; ++v)
         for (int u = at.first - reach; u <= at.first + reach; ++u) visit(u, v);
 }
 
 /// The connected contact at a place; its voxels are marked as seen.
-std::vector<std::pair<int, int>> contact_at(const Layer& border, std::pair<int, int> first,
-                                            std::vector<std::uint8_t>& seen) {
-    std::vector<std::pair<int, int>> contact = {first};
+std::vector<LayerPlace> contact_at(const Layer& border, LayerPlace first,
+                                   std::vector<std::uint8_t>& seen) {
+    std::vector<LayerPlace> contact = {first};
     seen[border.place(first.first, first.second)] = 1;
     for (std::size_t i = 0; i < contact.size(); ++i)
         around(contact[i], 1, [&](int u, int v) {
@@ -80,7 +80,7 @@ std::vector<std::pair<int, int>> contact_at(const Layer& border, std::pair<int, 
 }
 
 /// Voxels of a layer near a contact.
-double section_near(const std::vector<std::pair<int, int>>& contact, const Layer& layer) {
+double section_near(const std::vector<LayerPlace>& contact, const Layer& layer) {
     std::vector<std::uint8_t> seen(static_cast<std::size_t>(layer.width()) *
                                    static_cast<std::size_t>(layer.height()));
     double section = 0.0;
@@ -91,7 +91,7 @@ double section_near(const std::vector<std::pair<int, int>>& contact, const Layer
     return section;
 }
 
-bool is_graze(const std::vector<std::pair<int, int>>& contact, const Image& mask, int side) {
+bool is_graze(const std::vector<LayerPlace>& contact, const Image& mask, int side) {
     const auto section = [&](int behind) {
         return section_near(contact, Layer(mask, side, behind));
     };
@@ -128,8 +128,8 @@ Image with_border(const Image& mask, const std::array<Grazes, 6>& grazes) {
     Image wider = mask;
     for (int& size : wider.size) size += 2;
     wider.index_to_patient.topRightCorner<3, 1>() = mask.to_patient(Vec3::Constant(-1.0));
-    const auto value = [&](const Index& at) {
-        Index nearest = at;
+    const auto value = [&](const VoxelIndex& at) {
+        VoxelIndex nearest = at;
         for (std::size_t a = 0; a < 3; ++a)
             nearest[a] = std::min(std::max(at[a], 0), mask.size[a] - 1);
         for (std::size_t a = 0; a < 3; ++a) {
@@ -145,8 +145,7 @@ Image with_border(const Image& mask, const std::array<Grazes, 6>& grazes) {
     for (int k = -1; k <= mask.size[2]; ++k)
         for (int j = -1; j <= mask.size[1]; ++j)
             for (int i = -1; i <= mask.size[0]; ++i) voxels.push_back(value({i, j, k}));
-    wider.voxels = std::make_shared<const std::vector<float>>(std::move(voxels));
-    return wider;
+    return with_voxels(std::move(wider), std::move(voxels));
 }
 
 }  // namespace

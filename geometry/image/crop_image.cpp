@@ -5,6 +5,7 @@
 
 #include <Eigen/LU>
 
+#include "geometry/image/vessel_block.h"
 #include "geometry/kernel/errors.h"
 
 namespace vesselbench {
@@ -13,7 +14,7 @@ namespace {
 
 /// Copies the voxels whose cells meet the index range [low, high].
 Image crop_to_indices(const Image& image, const Vec3& low, const Vec3& high) {
-    std::array<int, 3> first{}, size{};
+    VoxelBlock block;
     for (std::size_t a = 0; a < 3; ++a) {
         const auto axis = static_cast<Eigen::Index>(a);
         const int last = image.size[a] - 1;
@@ -25,26 +26,12 @@ Image crop_to_indices(const Image& image, const Vec3& low, const Vec3& high) {
             return static_cast<int>(std::clamp(index, 0.0, static_cast<double>(last)));
         };
         // At least two voxels: a surface needs a cell between them.
-        first[a] = std::min(bounded(std::floor(low[axis])), std::max(0, last - 1));
-        size[a] =
-            std::max(bounded(std::ceil(high[axis])), std::min(first[a] + 1, last)) - first[a] + 1;
+        block.from[a] = std::min(bounded(std::floor(low[axis])), std::max(0, last - 1));
+        block.size[a] =
+            std::max(bounded(std::ceil(high[axis])), std::min(block.from[a] + 1, last)) -
+            block.from[a] + 1;
     }
-    std::vector<float> voxels;
-    voxels.reserve(static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) *
-                   static_cast<std::size_t>(size[2]));
-    for (int k = 0; k < size[2]; ++k)
-        for (int j = 0; j < size[1]; ++j) {
-            const auto begin = image.voxels->begin() + static_cast<std::ptrdiff_t>(image.offset(
-                                                           first[0], first[1] + j, first[2] + k));
-            voxels.insert(voxels.end(), begin, begin + size[0]);
-        }
-    Image part;
-    part.size = size;
-    part.index_to_patient = image.index_to_patient;
-    part.index_to_patient.topRightCorner<3, 1>() =
-        image.to_patient(Vec3(first[0], first[1], first[2]));
-    part.voxels = std::make_shared<const std::vector<float>>(std::move(voxels));
-    return part;
+    return part_of(image, block);
 }
 
 }  // namespace

@@ -9,7 +9,9 @@
 
 #include "geometry/image/clean_image.h"
 #include "geometry/image/separating_field.h"
+#include "geometry/image/vessel_block.h"
 #include "geometry/image/voxel_band.h"
+#include "geometry/image/voxels.h"
 #include "geometry/image/wall_topology.h"
 #include "geometry/kernel/parallel.h"
 
@@ -49,7 +51,7 @@ constexpr int kSteps = 60;
 
 /// Of a field at a fractional index; beyond the image as at its border.
 double value_at(const Image& image, const Vec3& index) {
-    std::array<int, 3> low{};
+    VoxelIndex low{};
     Vec3 t;
     for (std::size_t a = 0; a < 3; ++a) {
         const auto axis = static_cast<Eigen::Index>(a);
@@ -57,14 +59,7 @@ double value_at(const Image& image, const Vec3& index) {
         low[a] = std::min(static_cast<int>(at), std::max(0, image.size[a] - 2));
         t[axis] = at - low[a];
     }
-    double sum = 0.0;
-    for (int c = 0; c < 8; ++c) {
-        const int x = c & 1, y = c >> 1 & 1, z = c >> 2 & 1;
-        const double weight =
-            (x ? t.x() : 1 - t.x()) * (y ? t.y() : 1 - t.y()) * (z ? t.z() : 1 - t.z());
-        if (weight > 0.0) sum += weight * image.at(low[0] + x, low[1] + y, low[2] + z);
-    }
-    return sum;
+    return between_voxels(image, low, t);
 }
 
 /// Per voxel of an image, in parallel.
@@ -72,63 +67,14 @@ template <class Value>
 Image mapped(const Image& grid, const Value& value) {
     std::vector<float> voxels(grid.voxel_count());
     for_each_vertex(voxels.size(), [&](std::size_t v) { voxels[v] = value(v); });
-    Image result = grid;
-    result.voxels = std::make_shared<const std::vector<float>>(std::move(voxels));
-    return result;
+    return with_voxels(grid, std::move(voxels));
 }
 
-/// A part of an image, by indices.
-struct Part {
-    std::array<int, 3> first = {0, 0, 0};
-    std::array<int, 3> size = {0, 0, 0};
-};
-
-Part part_around(const Image& mask, int margin) {
-    std::array<int, 3> low = mask.size, high = {-1, -1, -1};
-    for (int k = 0; k < mask.size[2]; ++k)
-        for (int j = 0; j < mask.size[1]; ++j)
-            for (int i = 0; i < mask.size[0]; ++i) {
-                if (!is_inside(mask.at(i, j, k))) continue;
-                const std::array<int, 3> at = {i, j, k};
-                for (std::size_t a = 0; a < 3; ++a) {
-                    low[a] = std::min(low[a], at[a]);
-                    high[a] = std::max(high[a], at[a]);
-                }
-            }
-    Part part;
-    for (std::size_t a = 0; a < 3; ++a) {
-        part.first[a] = std::max(0, low[a] - margin);
-        part.size[a] = std::min(mask.size[a] - 1, high[a] + margin) - part.first[a] + 1;
-    }
-    return part;
-}
-
-Image cut_out(const Image& image, const Part& part) {
-    Image result;
-    result.size = part.size;
-    result.index_to_patient = image.index_to_patient;
-    result.index_to_patient.topRightCorner<3, 1>() =
-        image.to_patient(Vec3(part.first[0], part.first[1], part.first[2]));
-    std::vector<float> voxels;
-    voxels.reserve(result.voxel_count());
-    for (int k = 0; k < part.size[2]; ++k)
-        for (int j = 0; j < part.size[1]; ++j)
-            for (int i = 0; i < part.size[0]; ++i)
-                voxels.push_back(image.at(part.first[0] + i, part.first[1] + j, part.first[2] + k));
-    result.voxels = std::make_shared<const std::vector<float>>(std::move(voxels));
-    return result;
-}
-
-Image put_back(const Image& whole, const Image& cut, const Part& part) {
-    std::vector<float> voxels = *whole.voxels;
-    for (int k = 0; k < part.size[2]; ++k)
-        for (int j = 0; j < part.size[1]; ++j)
-            for (int i = 0; i < part.size[0]; ++i)
-                voxels[whole.offset(part.first[0] + i, part.first[1] + j, part.first[2] + k)] =
-                    cut.at(i, j, k);
-    Image result = whole;
-    result.voxels = std::make_shared<const std::vector<float>>(std::move(voxels));
-    return result;
+VoxelBlock block_of(const Image& mask, int margin) {
+    VoxelBox box;
+    for (std::size_t v = 0; v < mask.voxel_count(); ++v)
+        if (is_inside((*mask.voxels)[v])) box.add(index_of(mask, v));
+    return block_around(mask, box, margin);
 }
 
 /// Mean levels on both sides of the wall, of nearby voxels; the deeper ones count more.
@@ -170,13 +116,13 @@ struct Foot {
     Vec3 normal;         ///< unit, along the image's axes
 };
 
-double beside(const Image& field, std::array<int, 3> at, std::size_t axis, int step) {
+double beside(const Image& field, VoxelIndex at, std::size_t axis, int step) {
     at[axis] = std::clamp(at[axis] + step, 0, field.size[axis] - 1);
     return field.at(at[0], at[1], at[2]);
 }
 
 /// None where the field is flat.
-std::optional<Foot> foot_of(const Image& field, const std::array<int, 3>& at) {
+std::optional<Foot> foot_of(const Image& field, const VoxelIndex& at) {
     constexpr double kFlat = 0.2;
     const Vec3 spacing = field.spacing();
     const double value = field.at(at[0], at[1], at[2]);
@@ -280,13 +226,6 @@ struct Offsets {
     double seen = 0.0;
 };
 
-std::array<int, 3> index_of(const Image& image, std::size_t offset) {
-    const auto n = static_cast<std::size_t>(image.size[0]),
-               m = static_cast<std::size_t>(image.size[1]);
-    return {static_cast<int>(offset % n), static_cast<int>(offset / n % m),
-            static_cast<int>(offset / n / m)};
-}
-
 Offsets measured(const VoxelBand& band, const Image& field, const WallProbe& probe) {
     Offsets found;
     const std::size_t n = band.size();
@@ -380,9 +319,7 @@ Image moved_once(const Image& image, const Image& field, const VoxelBand& band,
         float& value = values[band.voxels[b]];
         value = std::clamp(value + found.slope[b] * offsets[b], bounds.least[b], bounds.most[b]);
     }
-    Image moved = field;
-    moved.voxels = std::make_shared<const std::vector<float>>(std::move(values));
-    return moved;
+    return with_voxels(field, std::move(values));
 }
 
 }  // namespace
@@ -391,9 +328,9 @@ DrawnWall drawn_wall(const Image& image, const Image& mask, const Progress& prog
     DrawnWall wall;
     wall.mask_field = separating_field(mask, progress.part(0.0, 0.7));
     constexpr int kMargin = 8;  // the windows' reach
-    const Part part = part_around(mask, kMargin);
-    const Image near = cut_out(image, part), near_mask = cut_out(mask, part),
-                field = cut_out(wall.mask_field, part);
+    const VoxelBlock block = block_of(mask, kMargin);
+    const Image near = part_of(image, block), near_mask = part_of(mask, block),
+                field = part_of(wall.mask_field, block);
     progress.report(0.7, "finding the image's edges at the wall");
     const VoxelBand band = voxel_band(near_mask, kLayers);
     const WallBounds bounds = bounds_of(band, field);
@@ -405,8 +342,7 @@ DrawnWall drawn_wall(const Image& image, const Image& mask, const Progress& prog
     }
     std::vector<float> values = *moved.voxels;
     keep_topology(field, band, values);
-    moved.voxels = std::make_shared<const std::vector<float>>(std::move(values));
-    wall.field = put_back(wall.mask_field, moved, part);
+    wall.field = with_part(wall.mask_field, block, values);
     return wall;
 }
 

@@ -13,10 +13,13 @@
 #include "geometry/image/shells.h"
 #include "geometry/image/voxel_band.h"
 #include "geometry/image/voxel_chains.h"
+#include "geometry/image/voxels.h"
 #include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/parallel.h"
+#include "geometry/kernel/spread.h"
 #include "geometry/kernel/surface_distance.h"
+#include "geometry/kernel/wall_edges.h"
 #include "geometry/kernel/wording.h"
 
 namespace vesselbench {
@@ -60,11 +63,6 @@ struct ImageSource {
 /// The image and its mask.
 bool uses_both(ExtractionMethod method) {
     return method == ExtractionMethod::Masked || method == ExtractionMethod::Wall;
-}
-
-/// The mask's voxels alone decide about the inside.
-bool takes_voxels(ExtractionMethod method) {
-    return method == ExtractionMethod::Labels || method == ExtractionMethod::Wall;
 }
 
 bool wants_topology(const ExtractionParameters& parameters) {
@@ -146,13 +144,6 @@ struct Field {
     std::optional<Image> of_mask = {};  ///< the same of the mask alone, if the image moved its wall
 };
 
-Vec3 place_of(const Image& mask, std::size_t voxel) {
-    const auto n = static_cast<std::size_t>(mask.size[0]),
-               m = static_cast<std::size_t>(mask.size[1]);
-    return mask.to_patient(Vec3(static_cast<double>(voxel % n), static_cast<double>(voxel / n % m),
-                                static_cast<double>(voxel / n / m)));
-}
-
 /// \param fill missing voxels: nobody said how far to close the mask
 Field lumen_field(const Image& mask, bool fill, Extraction& result, const Progress& progress) {
     KeptLumen& kept = result.lumen.emplace();
@@ -173,7 +164,10 @@ Field lumen_field(const Image& mask, bool fill, Extraction& result, const Progre
     kept.joined = joined.added;
     const std::vector<std::size_t> chain = chain_voxels(joined.mask);
     kept.chain = chain.size();
-    if (!chain.empty()) kept.place = place_of(whole, chain[chain.size() / 2]);
+    if (!chain.empty()) {
+        const auto [i, j, k] = index_of(whole, chain[chain.size() / 2]);
+        kept.place = whole.to_patient(Vec3(i, j, k));
+    }
     progress.check_cancelled();
     return {with_voxel_width(joined.mask, separating_field(joined.mask, progress)), 0.0};
 }
@@ -280,30 +274,19 @@ Field wall_field(ImageSource& source, const ExtractionParameters& parameters, Ex
     return {std::move(wall.field), 0.0, std::move(wall.mask_field)};
 }
 
-/// 1 for the vertices of the wall.
-std::vector<char> wall_vertices(const Surface& surface) {
-    std::vector<char> on_wall(surface.vertex_count());
-    for (TriangleId t = 0; t < surface.triangle_count(); ++t)
-        if (surface.patch_of(t).kind == PatchKind::Wall)
-            for (const VertexId v : surface.triangles()[t]) on_wall[v] = 1;
-    return on_wall;
-}
-
-/// How far the wall lies from the mask's surface.
-MaskDistance distance_from(const Surface& mask, const Surface& surface) {
+/// How far the wall lies from the mask's surface. \param seen of the result
+MaskDistance distance_from(const Surface& mask, const Surface& surface, double seen) {
     const SurfaceDistance to_mask(mask);
-    const std::vector<char> on_wall = wall_vertices(surface);
+    const std::vector<std::uint8_t> wall = vertices_of_wall(surface);
     std::vector<double> distances(surface.vertex_count());
     for_each_vertex(distances.size(), [&](std::size_t v) {
-        if (on_wall[v] != 0) distances[v] = to_mask.closest_point((*surface.positions)[v]).distance;
+        if (wall[v] != 0) distances[v] = to_mask.closest_point(surface.points()[v]).distance;
     });
-    const auto count = std::count(on_wall.begin(), on_wall.end(), 1);
-    MaskDistance found;
-    for (const double d : distances) {
-        found.mean += d / static_cast<double>(std::max<std::ptrdiff_t>(1, count));
-        found.largest = std::max(found.largest, d);
-    }
-    return found;
+    SpreadBuilder spread;
+    for (std::size_t v = 0; v < wall.size(); ++v)
+        if (wall[v] != 0) spread.add(distances[v]);
+    const Spread found = spread.result();
+    return {.mean = found.mean, .largest = found.max, .seen = seen};
 }
 
 /// A vessel that leaves the image has at least this many voxel faces there; less is a touch.
@@ -432,11 +415,14 @@ void add_distance(const Field& field, const ImageSource& source,
                       : iso_surface(mask_of_labels(*source.mask, parameters.labels), kMaskIso);
     if (mask.empty()) return;
     const double seen = result.from_mask ? result.from_mask->seen : 0.0;
-    result.from_mask = distance_from(mask, result.surface);
-    result.from_mask->seen = seen;
+    result.from_mask = distance_from(mask, result.surface, seen);
 }
 
 }  // namespace
+
+bool takes_voxels(ExtractionMethod method) {
+    return method == ExtractionMethod::Labels || method == ExtractionMethod::Wall;
+}
 
 std::string to_string(ExtractionMethod method) {
     switch (method) {

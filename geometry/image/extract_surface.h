@@ -25,6 +25,9 @@ enum class ExtractionMethod {
 };
 
 /// "threshold", "labels", "masked", "wall"
+/// The voxels of labels or a mask alone decide about the inside: there is no threshold.
+[[nodiscard]] bool takes_voxels(ExtractionMethod method);
+
 [[nodiscard]] std::string to_string(ExtractionMethod method);
 
 /// Where the surface of a mask or of labels lies between the voxels.

@@ -10,14 +10,13 @@
 
 #include "geometry/image/lines.h"
 #include "geometry/image/squared_distances.h"
+#include "geometry/image/voxels.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/parallel.h"
 
 namespace vesselbench {
 
 namespace {
-
-using Index = std::array<int, 3>;
 
 /// Indices of one grid as those of another: index = axes * other + first.
 struct GridMap {
@@ -55,20 +54,9 @@ std::optional<GridMap> lattice_map(const Image& mask, const Image& image) {
     return whole;
 }
 
-bool holds(const Image& image, const Index& at) {
-    for (std::size_t a = 0; a < 3; ++a)
-        if (at[a] < 0 || at[a] >= image.size[a]) return false;
-    return true;
-}
-
-Index rounded(const Vec3& at) {
+VoxelIndex rounded(const Vec3& at) {
     return {static_cast<int>(std::lround(at.x())), static_cast<int>(std::lround(at.y())),
             static_cast<int>(std::lround(at.z()))};
-}
-
-Image with_voxels(Image grid, std::vector<float> voxels) {
-    grid.voxels = std::make_shared<const std::vector<float>>(std::move(voxels));
-    return grid;
 }
 
 template <class Visit>
@@ -92,7 +80,7 @@ double share_beyond(const Image& image, const Image& mask, const GridMap& map) {
 Image moved(const Image& image, const Image& mask, const GridMap& map) {
     std::vector<float> voxels(image.voxel_count());
     for_each_inside(mask, [&](int i, int j, int k, float value) {
-        const Index at = rounded(map.at(Vec3(i, j, k)));
+        const VoxelIndex at = rounded(map.at(Vec3(i, j, k)));
         if (holds(image, at)) voxels[image.offset(at[0], at[1], at[2])] = value;
     });
     return with_voxels(image, std::move(voxels));
@@ -100,14 +88,14 @@ Image moved(const Image& image, const Image& mask, const GridMap& map) {
 
 /// A label's signed distances [mm] to its outline, positive inside, in its box and around it.
 struct LabelField {
-    Index first = {0, 0, 0};  ///< mask index of its first value
+    VoxelIndex first = {0, 0, 0};  ///< mask index of its first value
     Image distances;
 
     /// At a mask index; far outside beyond the box.
     [[nodiscard]] float at(const Vec3& mask_index) const {
         const Vec3 in(mask_index.x() - first[0], mask_index.y() - first[1],
                       mask_index.z() - first[2]);
-        std::array<int, 3> low{};
+        VoxelIndex low{};
         Vec3 t;
         for (std::size_t a = 0; a < 3; ++a) {
             const auto axis = static_cast<Eigen::Index>(a);
@@ -115,14 +103,7 @@ struct LabelField {
             t[axis] = in[axis] - low[a];
             if (low[a] < 0 || low[a] + 1 >= distances.size[a]) return -kFarSquared;
         }
-        double sum = 0.0;
-        for (int c = 0; c < 8; ++c) {
-            const int x = c & 1, y = c >> 1 & 1, z = c >> 2 & 1;
-            const double weight =
-                (x ? t.x() : 1 - t.x()) * (y ? t.y() : 1 - t.y()) * (z ? t.z() : 1 - t.z());
-            sum += weight * distances.at(low[0] + x, low[1] + y, low[2] + z);
-        }
-        return static_cast<float>(sum);
+        return static_cast<float>(between_voxels(distances, low, t));
     }
 };
 
@@ -143,7 +124,7 @@ std::vector<float> distances_to(const Image& box, const std::vector<char>& insid
 /// Around the box of a label, so that its outline lies within.
 constexpr int kMargin = 2;
 
-LabelField field_of(const Image& mask, float label, const Index& low, const Index& high) {
+LabelField field_of(const Image& mask, float label, const VoxelIndex& low, const VoxelIndex& high) {
     LabelField field;
     field.distances.index_to_patient = mask.index_to_patient;
     for (std::size_t a = 0; a < 3; ++a) {
@@ -164,8 +145,8 @@ LabelField field_of(const Image& mask, float label, const Index& low, const Inde
 }
 
 /// The image indices that may lie in a box of mask indices.
-std::pair<Index, Index> image_box(const Image& image, const GridMap& to_image, const Index& low,
-                                  const Index& high) {
+std::pair<VoxelIndex, VoxelIndex> image_box(const Image& image, const GridMap& to_image,
+                                            const VoxelIndex& low, const VoxelIndex& high) {
     Vec3 least = Vec3::Constant(1e9), most = Vec3::Constant(-1e9);
     for (int c = 0; c < 8; ++c) {
         const Vec3 corner(c & 1 ? high[0] + 1 : low[0] - 1, c & 2 ? high[1] + 1 : low[1] - 1,
@@ -173,7 +154,7 @@ std::pair<Index, Index> image_box(const Image& image, const GridMap& to_image, c
         least = least.cwiseMin(to_image.at(corner));
         most = most.cwiseMax(to_image.at(corner));
     }
-    Index first{}, last{};
+    VoxelIndex first{}, last{};
     for (std::size_t a = 0; a < 3; ++a) {
         const auto axis = static_cast<Eigen::Index>(a);
         first[a] = static_cast<int>(std::clamp(std::floor(least[axis]), 0.0, image.size[a] - 1.0));
@@ -182,19 +163,21 @@ std::pair<Index, Index> image_box(const Image& image, const GridMap& to_image, c
     return {first, last};
 }
 
-using Boxes = std::map<float, std::pair<Index, Index>>;
+/// What is known of a label's voxels before they are resampled.
+struct LabelExtent {
+    VoxelBox box;            ///< of mask indices
+    std::size_t within = 0;  ///< voxels whose centres lie in the image
+};
 
-Boxes boxes_of(const Image& mask) {
-    Boxes boxes;
+std::map<float, LabelExtent> extents_of(const Image& image, const Image& mask,
+                                        const GridMap& to_image) {
+    std::map<float, LabelExtent> extents;
     for_each_inside(mask, [&](int i, int j, int k, float value) {
-        auto& [low, high] = boxes.try_emplace(value, Index{i, j, k}, Index{i, j, k}).first->second;
-        const Index at = {i, j, k};
-        for (std::size_t a = 0; a < 3; ++a) {
-            low[a] = std::min(low[a], at[a]);
-            high[a] = std::max(high[a], at[a]);
-        }
+        LabelExtent& extent = extents[value];
+        extent.box.add({i, j, k});
+        if (holds(image, rounded(to_image.at(Vec3(i, j, k))))) ++extent.within;
     });
-    return boxes;
+    return extents;
 }
 
 /// Image voxels near a label, with their depths in it [mm].
@@ -204,7 +187,7 @@ struct Depths {
 };
 
 Depths depths_in(const Image& image, const LabelField& field, const GridMap& to_mask,
-                 const std::pair<Index, Index>& box, float reach) {
+                 const std::pair<VoxelIndex, VoxelIndex>& box, float reach) {
     const auto& [first, last] = box;
     const auto slices = static_cast<std::size_t>(std::max(0, last[2] - first[2] + 1));
     std::vector<Depths> by_slice(slices);
@@ -235,27 +218,18 @@ float fair_depth(std::vector<float> depths, double count, float reach) {
     return std::clamp(*at, -reach, reach);
 }
 
-/// Number of a label's voxels whose centres lie in the image.
-std::size_t voxels_within(const Image& image, const Image& mask, const GridMap& to_image,
-                          float label) {
-    std::size_t count = 0;
-    for_each_inside(mask, [&](int i, int j, int k, float value) {
-        if (value == label && holds(image, rounded(to_image.at(Vec3(i, j, k))))) ++count;
-    });
-    return count;
-}
-
 Image resampled(const Image& image, const Image& mask) {
     const GridMap to_mask = map_between(image, mask), to_image = map_between(mask, image);
     const auto reach = static_cast<float>(0.5 * mask.spacing().minCoeff());
     const double ratio = mask.spacing().prod() / image.spacing().prod();
     std::vector<float> voxels(image.voxel_count()), deepest(image.voxel_count());
-    for (const auto& [label, box] : boxes_of(mask)) {
-        const LabelField field = field_of(mask, label, box.first, box.second);
-        const Depths near = depths_in(image, field, to_mask,
-                                      image_box(image, to_image, box.first, box.second), reach);
-        const auto within = static_cast<double>(voxels_within(image, mask, to_image, label));
-        const float level = fair_depth(near.depths, ratio * within, reach);
+    for (const auto& [label, extent] : extents_of(image, mask, to_image)) {
+        const VoxelIndex &low = extent.box.low, &high = extent.box.high;
+        const LabelField field = field_of(mask, label, low, high);
+        const Depths near =
+            depths_in(image, field, to_mask, image_box(image, to_image, low, high), reach);
+        const float level =
+            fair_depth(near.depths, ratio * static_cast<double>(extent.within), reach);
         for (std::size_t n = 0; n < near.voxels.size(); ++n) {
             const std::size_t v = near.voxels[n];
             const float depth = near.depths[n] - level;

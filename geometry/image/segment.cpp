@@ -3,27 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/image/voxels.h"
+
 namespace vesselbench {
 
 namespace {
 
-/// Voxel indices of a label's box.
-struct Box {
-    std::size_t count = 0;
-    std::array<int, 3> low = {0, 0, 0};
-    std::array<int, 3> high = {0, 0, 0};
-
-    void add(const std::array<int, 3>& at) {
-        if (count++ == 0) low = high = at;
-        for (std::size_t a = 0; a < 3; ++a) {
-            low[a] = std::min(low[a], at[a]);
-            high[a] = std::max(high[a], at[a]);
-        }
-    }
-};
-
-std::map<int, Box> boxes_of(const Image& labels) {
-    std::map<int, Box> boxes;
+std::map<int, VoxelBox> boxes_of(const Image& labels) {
+    std::map<int, VoxelBox> boxes;
     for (int k = 0; k < labels.size[2]; ++k)
         for (int j = 0; j < labels.size[1]; ++j)
             for (int i = 0; i < labels.size[0]; ++i)

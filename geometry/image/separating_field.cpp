@@ -109,14 +109,6 @@ private:
     std::array<float, 3> across_{};
 };
 
-/// All voxels around it on its own side belong to the outline as well.
-bool is_thin(const VoxelBand& band, std::size_t v) {
-    return std::ranges::none_of(band.neighbours[v], [&](std::int32_t place) {
-        const auto n = static_cast<std::size_t>(place);
-        return place >= 0 && band.inside[n] == band.inside[v] && band.layer[n] > 1;
-    });
-}
-
 /// Per voxel of the band its least distance from the surface [mm].
 Values clearances(const VoxelBand& band, const Vec3& spacing) {
     Values least(band.size());

@@ -84,27 +84,36 @@ void for_rows(const Image& image, const VoxelBlock& block, const Row& row) {
                 image.offset(block.from[0], block.from[1] + j, block.from[2] + k)));
 }
 
+/// \param values of the block's voxels \param voxels of the whole grid
+void write_part(const Image& grid, const VoxelBlock& block, const std::vector<float>& values,
+                std::vector<float>& voxels) {
+    auto value = values.begin();
+    for_rows(grid, block, [&](std::ptrdiff_t from) {
+        std::copy_n(value, block.size[0], voxels.begin() + from);
+        value += block.size[0];
+    });
+}
+
 }  // namespace
+
+VoxelBlock block_around(const Image& image, const VoxelBox& box, int margin) {
+    VoxelBlock block{.size = image.size};
+    if (box.count == 0) return block;
+    for (std::size_t a = 0; a < 3; ++a) {
+        block.from[a] = std::max(0, box.low[a] - margin);
+        block.size[a] = std::min(image.size[a], box.high[a] + 1 + margin) - block.from[a];
+    }
+    return block;
+}
 
 VoxelBlock block_around_vessel(const Image& image, double threshold, const VesselBody& body) {
     const auto chosen = voxels_of_vessel(image, threshold, body);
-    std::array<int, 3> low = image.size, high = {-1, -1, -1};
+    VoxelBox box;
     for (int k = 0; k < image.size[2]; ++k)
         for (int j = 0; j < image.size[1]; ++j)
-            for (int i = 0; i < image.size[0]; ++i) {
-                if (chosen[image.offset(i, j, k)] == 0) continue;
-                const std::array<int, 3> at = {i, j, k};
-                for (std::size_t a = 0; a < 3; ++a) {
-                    low[a] = std::min(low[a], at[a]);
-                    high[a] = std::max(high[a], at[a]);
-                }
-            }
-    VoxelBlock block;
-    for (std::size_t a = 0; a < 3; ++a) {
-        block.from[a] = std::max(0, low[a] - kMargin);
-        block.size[a] = std::min(image.size[a], high[a] + 1 + kMargin) - block.from[a];
-    }
-    return block;
+            for (int i = 0; i < image.size[0]; ++i)
+                if (chosen[image.offset(i, j, k)] != 0) box.add({i, j, k});
+    return block_around(image, box, kMargin);
 }
 
 Image part_of(const Image& image, const VoxelBlock& block) {
@@ -117,21 +126,20 @@ Image part_of(const Image& image, const VoxelBlock& block) {
     part.size = block.size;
     part.index_to_patient.topRightCorner<3, 1>() =
         image.to_patient(Vec3(block.from[0], block.from[1], block.from[2]));
-    part.voxels = std::make_shared<const std::vector<float>>(std::move(voxels));
-    return part;
+    return with_voxels(std::move(part), std::move(voxels));
+}
+
+Image with_part(const Image& image, const VoxelBlock& block, const std::vector<float>& values) {
+    std::vector<float> voxels = *image.voxels;
+    write_part(image, block, values, voxels);
+    return with_voxels(image, std::move(voxels));
 }
 
 Image with_part(const Image& grid, const VoxelBlock& block, const std::vector<float>& values,
                 float outside) {
     std::vector<float> voxels(grid.voxel_count(), outside);
-    auto value = values.begin();
-    for_rows(grid, block, [&](std::ptrdiff_t from) {
-        std::copy_n(value, block.size[0], voxels.begin() + from);
-        value += block.size[0];
-    });
-    Image result = grid;
-    result.voxels = std::make_shared<const std::vector<float>>(std::move(voxels));
-    return result;
+    write_part(grid, block, values, voxels);
+    return with_voxels(grid, std::move(voxels));
 }
 
 std::vector<float> around_vessel(const Image& image, double threshold, const VesselBody& body,

@@ -5,6 +5,7 @@
 
 #include "geometry/image/image.h"
 #include "geometry/image/vessel_body.h"
+#include "geometry/image/voxels.h"
 
 namespace vesselbench {
 
@@ -18,6 +19,10 @@ struct VoxelBlock {
     }
 };
 
+/// The block that holds a box and some voxels around it, as far as the image has them; of an empty
+/// box the whole image.
+[[nodiscard]] VoxelBlock block_around(const Image& image, const VoxelBox& box, int margin);
+
 /// The block that holds a vessel and what a blur of it reaches.
 /// \throw AlgorithmFailure if no voxel has at least the threshold
 [[nodiscard]] VoxelBlock block_around_vessel(const Image& image, double threshold,
@@ -25,6 +30,11 @@ struct VoxelBlock {
 
 /// The image in a block.
 [[nodiscard]] Image part_of(const Image& image, const VoxelBlock& block);
+
+/// The image with other values in a block.
+/// \param values of the block's voxels
+[[nodiscard]] Image with_part(const Image& image, const VoxelBlock& block,
+                              const std::vector<float>& values);
 
 /// An image of one value outside a block, and of others in it.
 /// \param values of the block's voxels

@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include "geometry/image/voxels.h"
 #include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/parallel.h"
@@ -15,39 +16,24 @@ namespace {
 
 constexpr int kMostLayers = 8;
 
-using Index = std::array<int, 3>;
-
-constexpr std::array<Index, VoxelBand::kNeighbours> kOffsets = {{{1, 0, 0},
-                                                                 {-1, 0, 0},
-                                                                 {0, 1, 0},
-                                                                 {0, -1, 0},
-                                                                 {0, 0, 1},
-                                                                 {0, 0, -1},
-                                                                 {1, 1, 0},
-                                                                 {-1, -1, 0},
-                                                                 {1, 0, 1},
-                                                                 {-1, 0, -1},
-                                                                 {0, 1, 1},
-                                                                 {0, -1, -1}}};
-
-Index index_of(const Image& mask, std::size_t offset) {
-    const auto ni = static_cast<std::size_t>(mask.size[0]);
-    const auto nj = static_cast<std::size_t>(mask.size[1]);
-    return {static_cast<int>(offset % ni), static_cast<int>(offset / ni % nj),
-            static_cast<int>(offset / (ni * nj))};
-}
-
-bool within(const Image& mask, const Index& at) {
-    for (std::size_t a = 0; a < 3; ++a)
-        if (at[a] < 0 || at[a] >= mask.size[a]) return false;
-    return true;
-}
+constexpr std::array<VoxelIndex, VoxelBand::kNeighbours> kOffsets = {{{1, 0, 0},
+                                                                      {-1, 0, 0},
+                                                                      {0, 1, 0},
+                                                                      {0, -1, 0},
+                                                                      {0, 0, 1},
+                                                                      {0, 0, -1},
+                                                                      {1, 1, 0},
+                                                                      {-1, -1, 0},
+                                                                      {1, 0, 1},
+                                                                      {-1, 0, -1},
+                                                                      {0, 1, 1},
+                                                                      {0, -1, -1}}};
 
 /// Calls visit(offset in the image, voxels from `at`) for the voxels at most `reach` away along
 /// each axis.
 template <class Visit>
-void for_each_around(const Image& mask, const Index& at, int reach, const Visit& visit) {
-    Index low = at, high = at;
+void for_each_around(const Image& mask, const VoxelIndex& at, int reach, const Visit& visit) {
+    VoxelIndex low = at, high = at;
     for (std::size_t a = 0; a < 3; ++a) {
         low[a] = std::max(0, at[a] - reach);
         high[a] = std::min(mask.size[a] - 1, at[a] + reach);
@@ -55,15 +41,16 @@ void for_each_around(const Image& mask, const Index& at, int reach, const Visit&
     for (int k = low[2]; k <= high[2]; ++k)
         for (int j = low[1]; j <= high[1]; ++j)
             for (int i = low[0]; i <= high[0]; ++i)
-                visit(mask.offset(i, j, k), Index{i - at[0], j - at[1], k - at[2]});
+                visit(mask.offset(i, j, k), VoxelIndex{i - at[0], j - at[1], k - at[2]});
 }
 
 bool at_outline(const Image& mask, std::size_t voxel) {
-    const Index at = index_of(mask, voxel);
+    const VoxelIndex at = index_of(mask, voxel);
     const bool inside = is_inside((*mask.voxels)[voxel]);
     for (std::size_t n = 0; n < 6; ++n) {
-        const Index next = {at[0] + kOffsets[n][0], at[1] + kOffsets[n][1], at[2] + kOffsets[n][2]};
-        if (within(mask, next) && is_inside(mask.at(next[0], next[1], next[2])) != inside)
+        const VoxelIndex next = {at[0] + kOffsets[n][0], at[1] + kOffsets[n][1],
+                                 at[2] + kOffsets[n][2]};
+        if (holds(mask, next) && is_inside(mask.at(next[0], next[1], next[2])) != inside)
             return true;
     }
     return false;
@@ -79,7 +66,7 @@ std::vector<std::uint8_t> layers_of(const Image& mask, int layers) {
     for (int n = 2; n <= layers; ++n) {
         std::vector<std::size_t> next;
         for (const std::size_t v : last)
-            for_each_around(mask, index_of(mask, v), 1, [&](std::size_t w, const Index&) {
+            for_each_around(mask, index_of(mask, v), 1, [&](std::size_t w, const VoxelIndex&) {
                 if (layer[w] != 0) return;
                 layer[w] = static_cast<std::uint8_t>(n);
                 next.push_back(w);
@@ -96,7 +83,7 @@ float depth_of(const Image& mask, const std::vector<std::uint8_t>& layer, std::s
     const Vec3 spacing = mask.spacing();
     double nearest = std::numeric_limits<double>::infinity();
     for_each_around(mask, index_of(mask, voxel), layer[voxel] - 1,
-                    [&](std::size_t w, const Index& off) {
+                    [&](std::size_t w, const VoxelIndex& off) {
                         if (layer[w] != 1 || is_inside((*mask.voxels)[w]) != inside) return;
                         const Vec3 step(off[0], off[1], off[2]);
                         nearest = std::min(nearest, step.cwiseProduct(spacing).squaredNorm());
@@ -112,6 +99,13 @@ std::int32_t place_of(const std::vector<std::size_t>& voxels, std::size_t voxel)
 }
 
 }  // namespace
+
+bool is_thin(const VoxelBand& band, std::size_t voxel) {
+    return std::ranges::none_of(band.neighbours[voxel], [&](std::int32_t place) {
+        const auto n = static_cast<std::size_t>(place);
+        return place >= 0 && band.inside[n] == band.inside[voxel] && band.layer[n] > 1;
+    });
+}
 
 VoxelBand voxel_band(const Image& mask, int layers) {
     if (layers < 1 || layers > kMostLayers)
@@ -132,12 +126,12 @@ VoxelBand voxel_band(const Image& mask, int layers) {
         band.inside[b] = is_inside((*mask.voxels)[voxel]) ? 1 : 0;
         band.layer[b] = layer[voxel];
         band.depth[b] = depth_of(mask, layer, voxel);
-        const Index at = index_of(mask, voxel);
+        const VoxelIndex at = index_of(mask, voxel);
         for (std::size_t n = 0; n < VoxelBand::kNeighbours; ++n) {
-            const Index next = {at[0] + kOffsets[n][0], at[1] + kOffsets[n][1],
-                                at[2] + kOffsets[n][2]};
+            const VoxelIndex next = {at[0] + kOffsets[n][0], at[1] + kOffsets[n][1],
+                                     at[2] + kOffsets[n][2]};
             const bool there =
-                within(mask, next) && layer[mask.offset(next[0], next[1], next[2])] != 0;
+                holds(mask, next) && layer[mask.offset(next[0], next[1], next[2])] != 0;
             band.neighbours[b][n] =
                 there ? place_of(band.voxels, mask.offset(next[0], next[1], next[2]))
                       : VoxelBand::kNone;

@@ -32,6 +32,9 @@ struct VoxelBand {
     [[nodiscard]] std::size_t size() const { return voxels.size(); }
 };
 
+/// All voxels around one, by its number in the band, on its own side belong to the outline as well.
+[[nodiscard]] bool is_thin(const VoxelBand& band, std::size_t voxel);
+
 /// \param layers on each side of the outline, 1 to 8
 /// \throw InvalidInput if layers is out of range, or the band has 2^31 voxels or more
 [[nodiscard]] VoxelBand voxel_band(const Image& mask, int layers);

@@ -3,18 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstdlib>
-#include <memory>
-#include <optional>
 #include <utility>
 
 #include "geometry/image/voxel_band.h"
+#include "geometry/image/voxels.h"
+#include "geometry/kernel/simple_point.h"
 
 namespace vesselbench {
 
 namespace {
-
-using Index = std::array<int, 3>;
 
 /// Where the zero set crosses to the voxels beside a chain, as a share of the way. A vessel that
 /// leaves a chain is less than two voxels wide. At 0.71 its section would have the area of a
@@ -24,21 +21,21 @@ constexpr float kSheetShare = 0.5f;
 /// A voxel centre outside is at least this far from the surface [halves of the smallest edge].
 constexpr float kNearest = 1e-3f;
 
-constexpr std::array<Index, 6> kFaces = {
+constexpr std::array<VoxelIndex, 6> kFaces = {
     {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}};
 /// Each pair of voxels with an edge, then each with a corner in common, from one side.
-constexpr std::array<Index, 10> kDiagonals = {{{1, 1, 0},
-                                               {1, -1, 0},
-                                               {1, 0, 1},
-                                               {1, 0, -1},
-                                               {0, 1, 1},
-                                               {0, 1, -1},
-                                               {1, 1, 1},
-                                               {1, 1, -1},
-                                               {1, -1, 1},
-                                               {1, -1, -1}}};
+constexpr std::array<VoxelIndex, 10> kDiagonals = {{{1, 1, 0},
+                                                    {1, -1, 0},
+                                                    {1, 0, 1},
+                                                    {1, 0, -1},
+                                                    {0, 1, 1},
+                                                    {0, 1, -1},
+                                                    {1, 1, 1},
+                                                    {1, 1, -1},
+                                                    {1, -1, 1},
+                                                    {1, -1, -1}}};
 
-Index operator+(const Index& a, const Index& b) {
+VoxelIndex operator+(const VoxelIndex& a, const VoxelIndex& b) {
     return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
 }
 
@@ -50,29 +47,23 @@ public:
             inside_[v] = is_inside((*mask.voxels)[v]) ? 1 : 0;
     }
 
-    [[nodiscard]] const std::array<int, 3>& size() const { return mask_.size; }
+    [[nodiscard]] bool is_there(const VoxelIndex& at) const { return holds(mask_, at); }
 
-    [[nodiscard]] bool is_there(const Index& at) const {
-        for (std::size_t a = 0; a < 3; ++a)
-            if (at[a] < 0 || at[a] >= mask_.size[a]) return false;
-        return true;
-    }
-
-    [[nodiscard]] std::size_t offset(const Index& at) const {
+    [[nodiscard]] std::size_t offset(const VoxelIndex& at) const {
         return mask_.offset(at[0], at[1], at[2]);
     }
 
-    [[nodiscard]] bool is_in(const Index& at) const {
+    [[nodiscard]] bool is_in(const VoxelIndex& at) const {
         return is_there(at) && inside_[offset(at)] != 0;
     }
 
-    void add(const Index& at) { inside_[offset(at)] = 1; }
+    void add(const VoxelIndex& at) { inside_[offset(at)] = 1; }
 
     /// In a block of 2 x 2 x 1 or 2 x 2 x 2 voxels inside. \param thick along the third axis, too
-    [[nodiscard]] bool is_in_block(const Index& at, bool thick) const {
+    [[nodiscard]] bool is_in_block(const VoxelIndex& at, bool thick) const {
         for (int flat = 0; flat < (thick ? 1 : 3); ++flat)
             for (int corner = 0; corner < 8; ++corner) {
-                Index side;
+                VoxelIndex side;
                 for (int a = 0; a < 3; ++a)
                     side[static_cast<std::size_t>(a)] = (corner >> a) % 2 == 0 ? 1 : -1;
                 if (!thick) side[static_cast<std::size_t>(flat)] = 0;
@@ -81,7 +72,7 @@ public:
         return false;
     }
 
-    [[nodiscard]] bool is_chain(const Index& at) const {
+    [[nodiscard]] bool is_chain(const VoxelIndex& at) const {
         return is_in(at) && !is_in_block(at, false) && connects(at);
     }
 
@@ -91,46 +82,31 @@ public:
         for (int k = 0; k < mask_.size[2]; ++k)
             for (int j = 0; j < mask_.size[1]; ++j)
                 for (int i = 0; i < mask_.size[0]; ++i)
-                    if (inside_[mask_.offset(i, j, k)] != 0) visit(Index{i, j, k});
+                    if (inside_[mask_.offset(i, j, k)] != 0) visit(VoxelIndex{i, j, k});
     }
 
-    [[nodiscard]] Image taken(const Image& grid) const {
-        Image result = grid;
-        result.voxels = std::make_shared<const std::vector<float>>(inside_.begin(), inside_.end());
-        return result;
+    [[nodiscard]] Image taken() const {
+        return with_voxels(mask_, {inside_.begin(), inside_.end()});
     }
 
 private:
     /// All voxels of the block from a voxel to its neighbour at `side` are inside.
-    [[nodiscard]] bool is_whole(const Index& at, const Index& side) const {
+    [[nodiscard]] bool is_whole(const VoxelIndex& at, const VoxelIndex& side) const {
         for (int corner = 0; corner < 8; ++corner) {
-            const Index step = {corner % 2 * side[0], corner / 2 % 2 * side[1],
-                                corner / 4 * side[2]};
+            const VoxelIndex step = {corner % 2 * side[0], corner / 2 % 2 * side[1],
+                                     corner / 4 * side[2]};
             if (!is_in(at + step)) return false;
         }
         return true;
     }
 
     /// The voxels around it fall apart without it.
-    [[nodiscard]] bool connects(const Index& at) const {
-        std::vector<Index> around;
-        for (int n = 0; n < 27; ++n) {
-            const Index step = {n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1};
-            if (n != 13 && is_in(at + step)) around.push_back(step);
-        }
-        if (around.size() < 2) return false;
-        std::vector<Index> reached = {around.back()};
-        around.pop_back();
-        for (std::size_t r = 0; r < reached.size(); ++r) {
-            const Index from = reached[r];
-            std::erase_if(around, [&](const Index& to) {
-                for (std::size_t a = 0; a < 3; ++a)
-                    if (std::abs(from[a] - to[a]) > 1) return false;
-                reached.push_back(to);
-                return true;
-            });
-        }
-        return !around.empty();
+    [[nodiscard]] bool connects(const VoxelIndex& at) const {
+        NeighbourBits around = 0;
+        for (int n = 0; n < 27; ++n)
+            if (is_in(at + VoxelIndex{n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1}))
+                around |= NeighbourBits{1} << n;
+        return connects_parts(around);
     }
 
     const Image& mask_;
@@ -138,9 +114,9 @@ private:
 };
 
 /// Both are connected by faces within a voxel around them.
-bool are_joined(const Voxels& voxels, const Index& from, const Index& to) {
-    std::vector<Index> reached = {from};
-    const auto is_near = [&](const Index& at) {
+bool are_joined(const Voxels& voxels, const VoxelIndex& from, const VoxelIndex& to) {
+    std::vector<VoxelIndex> reached = {from};
+    const auto is_near = [&](const VoxelIndex& at) {
         for (std::size_t a = 0; a < 3; ++a)
             if (at[a] < std::min(from[a], to[a]) - 1 || at[a] > std::max(from[a], to[a]) + 1)
                 return false;
@@ -148,8 +124,8 @@ bool are_joined(const Voxels& voxels, const Index& from, const Index& to) {
     };
     for (std::size_t r = 0; r < reached.size(); ++r) {
         if (reached[r] == to) return true;
-        for (const Index& step : kFaces) {
-            const Index next = reached[r] + step;
+        for (const VoxelIndex& step : kFaces) {
+            const VoxelIndex next = reached[r] + step;
             if (is_near(next) && voxels.is_in(next) && std::ranges::count(reached, next) == 0)
                 reached.push_back(next);
         }
@@ -159,20 +135,21 @@ bool are_joined(const Voxels& voxels, const Index& from, const Index& to) {
 
 /// The voxels between two that have an edge or a corner in common, on the way with the most voxels
 /// inside around it.
-std::vector<Index> voxels_between(const Voxels& voxels, const Index& from, const Index& step) {
+std::vector<VoxelIndex> voxels_between(const Voxels& voxels, const VoxelIndex& from,
+                                       const VoxelIndex& step) {
     std::vector<std::size_t> axes;
     for (std::size_t a = 0; a < 3; ++a)
         if (step[a] != 0) axes.push_back(a);
-    std::vector<Index> best;
+    std::vector<VoxelIndex> best;
     int most = -1;
     do {
-        std::vector<Index> way;
-        Index at = from;
+        std::vector<VoxelIndex> way;
+        VoxelIndex at = from;
         int beside = 0;
         for (std::size_t s = 0; s + 1 < axes.size(); ++s) {
             at[axes[s]] += step[axes[s]];
             way.push_back(at);
-            for (const Index& face : kFaces) beside += voxels.is_in(at + face) ? 1 : 0;
+            for (const VoxelIndex& face : kFaces) beside += voxels.is_in(at + face) ? 1 : 0;
         }
         if (beside <= most) continue;
         most = beside;
@@ -182,7 +159,7 @@ std::vector<Index> voxels_between(const Voxels& voxels, const Index& from, const
 }
 
 /// Of the way to the voxels beside it that are outside; 0: any.
-float least_share(const Voxels& voxels, const Index& at) {
+float least_share(const Voxels& voxels, const VoxelIndex& at) {
     if (voxels.is_in_block(at, true)) return 0.0f;
     return voxels.is_in_block(at, false) ? kSheetShare : kChainShare;
 }
@@ -192,29 +169,30 @@ float least_share(const Voxels& voxels, const Index& at) {
 JoinedMask joined_chains(const Image& mask) {
     Voxels voxels(mask);
     JoinedMask joined;
-    for (const Index& step : kDiagonals) {
-        std::vector<Index> added;
-        voxels.for_each_inside([&](const Index& at) {
-            const Index to = at + step;
+    for (const VoxelIndex& step : kDiagonals) {
+        std::vector<VoxelIndex> added;
+        voxels.for_each_inside([&](const VoxelIndex& at) {
+            const VoxelIndex to = at + step;
             if (!voxels.is_in(to) || are_joined(voxels, at, to) ||
                 !(voxels.is_chain(at) || voxels.is_chain(to)))
                 return;
-            for (const Index& between : voxels_between(voxels, at, step)) added.push_back(between);
+            for (const VoxelIndex& between : voxels_between(voxels, at, step))
+                added.push_back(between);
         });
-        for (const Index& between : added)
+        for (const VoxelIndex& between : added)
             if (!voxels.is_in(between)) {
                 voxels.add(between);
                 ++joined.added;
             }
     }
-    joined.mask = joined.added > 0 ? voxels.taken(mask) : mask;
+    joined.mask = joined.added > 0 ? voxels.taken() : mask;
     return joined;
 }
 
 std::vector<std::size_t> chain_voxels(const Image& mask) {
     const Voxels voxels(mask);
     std::vector<std::size_t> chain;
-    voxels.for_each_inside([&](const Index& at) {
+    voxels.for_each_inside([&](const VoxelIndex& at) {
         if (voxels.is_chain(at)) chain.push_back(voxels.offset(at));
     });
     return chain;
@@ -225,8 +203,8 @@ Image with_voxel_width(const Image& mask, const Image& field) {
     const Vec3 spacing = mask.spacing();
     const auto half = static_cast<float>(0.5 * spacing.minCoeff());
     std::vector<float> values = *field.voxels;
-    std::vector<std::pair<Index, float>> thin;
-    voxels.for_each_inside([&](const Index& at) {
+    std::vector<std::pair<VoxelIndex, float>> thin;
+    voxels.for_each_inside([&](const VoxelIndex& at) {
         const float share = least_share(voxels, at);
         if (share == 0.0f) return;
         float& value = values[voxels.offset(at)];
@@ -235,16 +213,14 @@ Image with_voxel_width(const Image& mask, const Image& field) {
     });
     for (const auto& [at, share] : thin) {
         const float beyond = -values[voxels.offset(at)] * (1.0f - share) / share;
-        for (const Index& face : kFaces) {
-            const Index beside = at + face;
+        for (const VoxelIndex& face : kFaces) {
+            const VoxelIndex beside = at + face;
             if (!voxels.is_there(beside) || voxels.is_in(beside)) continue;
             float& value = values[voxels.offset(beside)];
             value = std::max(value, std::min(beyond, -kNearest * half));
         }
     }
-    Image result = field;
-    result.voxels = std::make_shared<const std::vector<float>>(std::move(values));
-    return result;
+    return with_voxels(field, std::move(values));
 }
 
 }  // namespace vesselbench

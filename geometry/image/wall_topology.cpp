@@ -4,19 +4,12 @@
 #include <cmath>
 #include <cstddef>
 
-#include "geometry/image/simple_voxel.h"
+#include "geometry/image/voxels.h"
+#include "geometry/kernel/simple_point.h"
 
 namespace vesselbench {
 
 namespace {
-
-/// All voxels around it on its own side belong to the outline as well.
-bool is_thin(const VoxelBand& band, std::size_t b) {
-    return std::ranges::none_of(band.neighbours[b], [&](std::int32_t place) {
-        const auto n = static_cast<std::size_t>(place);
-        return place >= 0 && band.inside[n] == band.inside[b] && band.layer[n] > 1;
-    });
-}
 
 bool may_change(const VoxelBand& band, std::size_t b) {
     return band.layer[b] == 1 && (band.inside[b] == 0 || !is_thin(band, b));
@@ -33,17 +26,14 @@ public:
     void change(std::size_t v) { inside_[v] = inside_[v] == 0; }
 
     /// Beyond the image as at its border: a vessel that leaves it goes on.
-    [[nodiscard]] VoxelSurroundings around(std::size_t v) const {
-        const auto n = static_cast<std::size_t>(image_.size[0]),
-                   m = static_cast<std::size_t>(image_.size[1]);
-        const int i = static_cast<int>(v % n), j = static_cast<int>(v / n % m),
-                  k = static_cast<int>(v / n / m);
-        VoxelSurroundings result{};
+    [[nodiscard]] NeighbourBits around(std::size_t v) const {
+        const auto [i, j, k] = index_of(image_, v);
+        NeighbourBits bits = 0;
         for (int s = 0; s < 27; ++s)
-            result[static_cast<std::size_t>(s)] =
-                inside_[image_.offset(within(i + s % 3 - 1, 0), within(j + s / 3 % 3 - 1, 1),
-                                      within(k + s / 9 - 1, 2))] != 0;
-        return result;
+            if (inside_[image_.offset(within(i + s % 3 - 1, 0), within(j + s / 3 % 3 - 1, 1),
+                                      within(k + s / 9 - 1, 2))] != 0)
+                bits |= NeighbourBits{1} << s;
+        return bits;
     }
 
 private:
@@ -68,7 +58,7 @@ void keep_topology(const Image& before, const VoxelBand& band, std::vector<float
         std::vector<std::size_t> left;
         for (const std::size_t b : changing) {
             const std::size_t v = band.voxels[b];
-            if (!may_change(band, b) || !is_simple(sides.around(v))) {
+            if (!may_change(band, b) || !is_simple_both_ways(sides.around(v))) {
                 left.push_back(b);
                 continue;
             }

@@ -9,7 +9,7 @@ namespace vesselbench {
 
 /// Gives back their side to voxels whose change would alter the topology of a mask, or thin it
 /// away: only voxels of the outline may change sides, one by one, where that is simple
-/// (simple_voxel.h), and no voxel leaves a part that is as thin as itself.
+/// (simple_point.h), and no voxel leaves a part that is as thin as itself.
 /// \param before positive inside the mask
 /// \param band of the mask
 /// \param values to be changed: per voxel, positive inside

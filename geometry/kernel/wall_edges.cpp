@@ -49,6 +49,14 @@ void add_triangle(const Surface& surface, const SurfaceDistance& distance, doubl
 
 }  // namespace
 
+std::vector<std::uint8_t> vertices_of_wall(const Surface& surface) {
+    std::vector<std::uint8_t> on_wall(surface.vertex_count(), 0);
+    for (TriangleId t = 0; t < surface.triangle_count(); ++t)
+        if (is_wall(surface, t))
+            for (const VertexId v : surface.triangles()[t]) on_wall[v] = 1;
+    return on_wall;
+}
+
 WallEdges wall_edges(const Surface& surface) {
     WallEdges edges;
     const auto neighbours = edge_neighbours(surface.triangles());

@@ -1,11 +1,15 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "geometry/kernel/surface.h"
 #include "geometry/kernel/surface_distance.h"
 
 namespace vesselbench {
+
+/// 1 at the corners of the wall's triangles, else 0. #V
+[[nodiscard]] std::vector<std::uint8_t> vertices_of_wall(const Surface& surface);
 
 /// How the triangles of the wall meet: a value for each edge between two of them. Edges of caps and
 /// rims, whose angles and sizes are made, are left out.

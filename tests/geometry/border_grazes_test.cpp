@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <catch2/catch.hpp>
 
@@ -29,7 +30,7 @@ Image mask_of(const std::array<int, 3>& size, const Solid& solid) {
 
 /// Of radius 8 voxels around a line along z, tilted by an angle, in a box of 41 x 41 x 41.
 Image tilted_tube(double degrees) {
-    const double angle = degrees * 3.14159265358979 / 180.0;
+    const double angle = degrees * std::numbers::pi / 180.0;
     const Vec3 axis(std::sin(angle), 0.0, std::cos(angle));
     return mask_of({41, 41, 41}, [axis](const Vec3& at) {
         const Vec3 from = at - Vec3::Constant(20.0);
@@ -98,6 +99,6 @@ SCENARIO("A wall that touches the border is no end", "[images][mask-surface]") {
         CHECK(found.surface.patches.size() == 3);
         for (const PatchMeasures& patch : measure_patches(found.surface))
             if (patch.kind == PatchKind::Cut)
-                CHECK(patch.area == Approx(3.14159 * 6.2 * 6.2 * 0.25).epsilon(0.1));
+                CHECK(patch.area == Approx(std::numbers::pi * 6.2 * 6.2 * 0.25).epsilon(0.1));
     }
 }

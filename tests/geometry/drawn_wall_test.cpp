@@ -5,9 +5,9 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/image/extract_surface.h"
-#include "geometry/image/simple_voxel.h"
 #include "geometry/image/voxel_topology.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/simple_point.h"
 #include "tests/support/image_shapes.h"
 #include "tests/support/surface_facts.h"
 
@@ -106,19 +106,30 @@ SCENARIO("The image does not change a drawn wall's topology", "[images][wall]") 
     }
 }
 
+SCENARIO("A drawn mask that cleaning empties is no vessel", "[images][wall][bad-input]") {
+    const Image grid = ball();
+    const Vec3 middle = middle_of(grid);
+    const Image sheet = image_of(grid.size, grid.index_to_patient, [&](const Vec3& p) {
+        return std::abs(p.x() - middle.x()) < 0.6 * kVoxel ? 1.0 : 0.0;
+    });
+    CHECK_THROWS_AS(extract_surface(grid, sheet,
+                                    {.method = ExtractionMethod::Wall, .cleaning = {.opening = 2}}),
+                    AlgorithmFailure);
+}
+
 SCENARIO("A simple voxel may change its side", "[images][topology]") {
-    VoxelSurroundings none{}, all{}, half{};
-    all.fill(true);
-    for (std::size_t v = 0; v < half.size(); ++v) half[v] = v < 18;  // a wall between k and k + 1
-    CHECK_FALSE(is_simple(none));                                    // it would be a new body
-    CHECK_FALSE(is_simple(all));                                     // it would be a cavity
-    CHECK(is_simple(half));
-    VoxelSurroundings bridge{};
-    bridge[12] = bridge[13] = bridge[14] = true;
-    CHECK_FALSE(is_simple(bridge));  // it would part its neighbours
-    VoxelSurroundings tip{};
-    tip[12] = tip[13] = true;
-    CHECK(is_simple(tip));
+    const NeighbourBits none = 0, all = (NeighbourBits{1} << 27) - 1;
+    const NeighbourBits half = (NeighbourBits{1} << 18) - 1;  // a wall between k and k + 1
+    const auto bit = [](int cell) { return NeighbourBits{1} << cell; };
+    CHECK_FALSE(is_simple_both_ways(none));  // it would be a new body
+    CHECK_FALSE(is_simple_both_ways(all));   // it would be a cavity
+    CHECK(is_simple_both_ways(half));
+    const NeighbourBits bridge = bit(12) | bit(13) | bit(14);
+    CHECK_FALSE(is_simple_both_ways(bridge));  // it would part its neighbours
+    CHECK(connects_parts(bridge));
+    const NeighbourBits tip = bit(12) | bit(13);
+    CHECK(is_simple_both_ways(tip));
+    CHECK_FALSE(connects_parts(tip));
 }
 
 SCENARIO("A wall needs a mask", "[images][wall][bad-input]") {

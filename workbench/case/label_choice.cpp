@@ -9,6 +9,7 @@
 #include "geometry/kernel/printable.h"
 #include "geometry/kernel/wording.h"
 #include "workbench/case/near_names.h"
+#include "workbench/case/scene.h"
 #include "workbench/case/shell_text.h"
 
 namespace vesselbench {
@@ -117,6 +118,10 @@ std::string example_of(const std::vector<Segment>& segments, int label) {
 }
 
 }  // namespace
+
+const Image& label_image(const Scene& scene) {
+    return scene.mask ? *scene.mask : *scene.image;
+}
 
 std::vector<int> labels_named(const std::string& text, const std::vector<Segment>& segments,
                               const std::vector<int>& there) {

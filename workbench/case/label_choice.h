@@ -9,6 +9,12 @@
 
 namespace vesselbench {
 
+struct Scene;
+
+/// The voxels of a scene's labels: of its mask, else of its image.
+/// \pre the scene has an image
+[[nodiscard]] const Image& label_image(const Scene& scene);
+
 /// The labels that a user names.
 /// \param text names or labels, separated by commas, or "all"; a name may be written in any case
 /// \param there labels that occur in the voxels, ascending

@@ -9,6 +9,7 @@
 #include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/wording.h"
+#include "workbench/case/label_choice.h"
 #include "workbench/case/measure_json.h"
 #include "workbench/operations/extract_surface/parameters.h"
 #include "workbench/operations/shared/handle_warnings.h"
@@ -30,23 +31,18 @@ const Image& image_of(const Scene& scene) {
     return *scene.image;
 }
 
-/// Without a threshold.
-bool of_voxels(ExtractionMethod method) {
-    return method == ExtractionMethod::Labels || method == ExtractionMethod::Wall;
-}
-
 /// All decisions, so that a replay repeats them.
 Arguments resolved_from(const Arguments& given, const Extraction& extraction) {
     Arguments resolved = given;
     resolved.set("method", to_string(extraction.method));
-    if (of_voxels(extraction.method))
+    if (takes_voxels(extraction.method))
         resolved.set("labels",
                      std::vector<double>(extraction.labels.begin(), extraction.labels.end()));
     else if (extraction.levels)
         resolved.set("threshold", std::string("local"));
     else if (!given.has("iso"))
         resolved.set("threshold", extraction.threshold);
-    if (!of_voxels(extraction.method))
+    if (!takes_voxels(extraction.method))
         resolved.set("inside", std::string(extraction.inside_below ? "below" : "above"));
     if (extraction.contrast) resolved.set("contrast", *extraction.contrast);
     return resolved;
@@ -341,12 +337,11 @@ Arguments decided_extraction(const Scene& scene, const CheckedArguments& argumen
                 progress);
     Arguments found{{"method", to_string(*decided.method)}};
     if (decided.method != ExtractionMethod::Threshold && !arguments->has("labels")) {
-        const std::vector<int> all = decided.labels.empty()
-                                         ? labels_of(scene.mask ? *scene.mask : *scene.image)
-                                         : decided.labels;
+        const std::vector<int> all =
+            decided.labels.empty() ? labels_of(label_image(scene)) : decided.labels;
         found.set("labels", std::vector<double>(all.begin(), all.end()));
     }
-    if (of_voxels(*decided.method)) return found;
+    if (takes_voxels(*decided.method)) return found;
     found.set("threshold",
               decided.local_levels ? Value(std::string("local")) : Value(*decided.threshold));
     found.set("inside", std::string(*decided.inside_below ? "below" : "above"));

@@ -19,8 +19,7 @@ namespace {
 /// The labels that the arguments list or name.
 std::vector<int> labels_of_neighbour(const Scene& scene, const Arguments& arguments) {
     if (const auto name = arguments.optional_text("segment"))
-        return labels_named(*name, scene.segmentation.segments,
-                            labels_of(scene.mask ? *scene.mask : *scene.image));
+        return labels_named(*name, scene.segmentation.segments, labels_of(label_image(scene)));
     std::vector<int> labels;
     for (const double label : arguments.list("labels")) {
         if (label != std::floor(label) || label < 1.0 || label > 1e6)

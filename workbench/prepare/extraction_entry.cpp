@@ -31,7 +31,7 @@ bool takes_unchosen_labels(const Arguments& given, const Scene& scene) {
     const std::string method = given.optional_text(kMethod).value_or("auto");
     const bool level = given.has("threshold") || given.has("iso");
     if (method == "threshold" || (level && !scene.mask)) return false;
-    const Image& labels = scene.mask ? *scene.mask : *scene.image;
+    const Image& labels = label_image(scene);
     if (!scene.mask && method == "auto" && judge(labels).kind != ImageKind::Labels) return false;
     return labels_of(labels).size() > 1;
 }
@@ -41,7 +41,7 @@ RecipeEntry extraction_entry(const RecipeEntry& entry, Session& session) {
     if (!entry.given.operation().recipe.makes_source || log.empty()) return entry;
     const Scene scene = session.scene_after(log.back().edit.edit.id);
     if (takes_unchosen_labels(entry.given, scene)) {
-        const Image& labels = scene.mask ? *scene.mask : *scene.image;
+        const Image& labels = label_image(scene);
         throw DiagnosedUsage(label_unchosen(scene.segmentation.segments, label_sizes(labels)));
     }
     RecipeEntry own = entry;

@@ -400,8 +400,7 @@ void new_project(const fs::path& project, const InputOptions& options, const std
     const Scene scene = session.scene("");
     if (takes_unchosen_labels({}, scene))
         tell("labels, of which extract-surface labels=N takes some:" +
-             label_list(scene.segmentation.segments,
-                        label_sizes(scene.mask ? *scene.mask : *scene.image)));
+             label_list(scene.segmentation.segments, label_sizes(label_image(scene))));
 }
 
 }  // namespace vesselbench

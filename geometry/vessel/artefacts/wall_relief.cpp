@@ -13,6 +13,7 @@
 #include "geometry/kernel/disjoint_sets.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/statistics.h"
+#include "geometry/kernel/wall_edges.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
 #include "geometry/vessel/centerlines/line_radii.h"
 
@@ -117,10 +118,7 @@ std::vector<BranchWall> walls_of(const Surface& surface, const CenterlineGraph& 
         walls[b].from = beyond_node(graph, b, line.start_node);
         walls[b].to = branch_length(line) - beyond_node(graph, b, line.end_node);
     }
-    std::vector<std::uint8_t> on_wall(surface.vertex_count(), 0);
-    for (TriangleId t = 0; t < surface.triangle_count(); ++t)
-        if (surface.patch_of(t).kind == PatchKind::Wall)
-            for (const VertexId v : surface.triangles()[t]) on_wall[v] = 1;
+    const std::vector<std::uint8_t> on_wall = vertices_of_wall(surface);
     const std::vector<BranchPlace> places = places_on_nearest_lines(graph, surface.points());
     for (VertexId v = 0; v < places.size(); ++v)
         if (on_wall[v] != 0) walls[places[v].branch].vertices.emplace_back(places[v].abscissa, v);

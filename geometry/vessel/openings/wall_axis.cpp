@@ -10,6 +10,7 @@
 
 #include "geometry/kernel/statistics.h"
 #include "geometry/kernel/unsmoothed.h"
+#include "geometry/kernel/wall_edges.h"
 #include "geometry/vessel/openings/angle.h"
 
 namespace vesselbench {
@@ -80,15 +81,12 @@ Powers slopes(double t) {
 /// many.
 std::vector<Vec3> wall_near(const Surface& surface, const Plane& plane, double diameter,
                             const Stretch& whole) {
-    std::vector<bool> on_wall(surface.vertex_count(), false);
-    for (TriangleId t = 0; t < surface.triangle_count(); ++t)
-        if (surface.patch_of(t).kind == PatchKind::Wall)
-            for (const VertexId v : surface.triangles()[t]) on_wall[v] = true;
+    const std::vector<std::uint8_t> on_wall = vertices_of_wall(surface);
     const Positions before = unsmoothed(surface);
     const double reach = std::max(-whole.from, std::min(whole.to, kLongest)) + kOutermost;
     std::vector<Vec3> near;
     for (std::size_t v = 0; v < before.size(); ++v) {
-        if (!on_wall[v]) continue;
+        if (on_wall[v] == 0) continue;
         const Vec3& now = surface.points()[v];
         const bool smoothed = (before[v] - now).norm() < kSmoothedAway * diameter;
         const Vec3 p = ((smoothed ? before[v] : now) - plane.point) / diameter;

@@ -36,13 +36,8 @@ ExtractionParameters coarsened(ExtractionParameters parameters, const VoxelSteps
     return parameters;
 }
 
-/// Without an iso-value.
-bool of_voxels(ExtractionMethod method) {
-    return method == ExtractionMethod::Labels || method == ExtractionMethod::Wall;
-}
-
 LiveExtractor::State state_of(Extraction found) {
-    const bool labels = of_voxels(found.method);
+    const bool labels = takes_voxels(found.method);
     return {.surface = std::move(found.surface),
             .threshold = labels ? std::nullopt : std::optional(found.threshold),
             .inside_below = found.inside_below,
@@ -75,7 +70,7 @@ std::optional<LiveExtractor::State> LiveExtractor::coarse(const CheckedArguments
     if (!coarse_) return std::nullopt;
     const ExtractionParameters decided =
         extractor_.decided(extraction_parameters(given, with_mask_, vessel_), progress);
-    if (of_voxels(*decided.method)) return std::nullopt;
+    if (takes_voxels(*decided.method)) return std::nullopt;
     try {
         return state_of(coarse_->extract(coarsened(decided, steps_), progress));
     } catch (const AlgorithmFailure&) {  // thin vessels may be seen in the whole image only
