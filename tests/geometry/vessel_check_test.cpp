@@ -50,9 +50,9 @@ SCENARIO("A sheet and noise have no lumen", "[geometry][openings]") {
                       Contains("no vessel") && Contains("sheet"));
     CHECK_THROWS_WITH(require_lumen(wavy_sheet(40, 0.2)), Contains("sheet"));
     CHECK_THROWS_WITH(require_lumen(sponge()), Contains("no vessel") && Contains("noise"));
-    CHECK_THROWS_WITH(require_lumen(sponge(), SurfaceSource::Mask),
+    CHECK_THROWS_WITH(require_lumen(sponge(), SurfaceOrigin::Mask),
                       Contains("noise") && !Contains("threshold") && !Contains("add a mask"));
-    CHECK_THROWS_WITH(require_lumen(sponge(), SurfaceSource::File), Contains("from its image"));
+    CHECK_THROWS_WITH(require_lumen(sponge(), SurfaceOrigin::File), Contains("from its image"));
     CHECK_NOTHROW(require_lumen(open_tube(0.5, 200.0, 12, 300)));
     CHECK_NOTHROW(require_lumen(closed_tube(2.0, 30.0, 40, 90)));
     CHECK_NOTHROW(require_lumen(icosphere(5.0, 3)));

@@ -52,14 +52,14 @@ std::int64_t iterations_of(const LogEntry& entry) {
 
 /// What the model's surface was made from: where voxels of labels alone decide about the inside, an
 /// extraction has no threshold.
-SurfaceSource source_of(const Session& session) {
+SurfaceOrigin source_of(const Session& session) {
     for (const LogEntry& entry : session.log()) {
         if (entry.edit.operation != extracting_operation().name || !entry.result) continue;
         const Arguments& ran = entry.result->resolved;
-        return ran.has("threshold") || ran.has("iso") ? SurfaceSource::Intensities
-                                                      : SurfaceSource::Mask;
+        return ran.has("threshold") || ran.has("iso") ? SurfaceOrigin::Intensities
+                                                      : SurfaceOrigin::Mask;
     }
-    return SurfaceSource::File;
+    return SurfaceOrigin::File;
 }
 
 /// \throw UnusableSource if there is nothing that a model could be made of
@@ -164,8 +164,9 @@ private:
                                      .operation = done.edit.operation,
                                      .figures = {{"before", static_cast<double>(iterations)},
                                                  {"volume_percent", 100.0 * lost}}};
-            warning->figures["iterations"] = static_cast<double>(iterations / 2);
-            entry.given.set(kIterations, iterations / 2);
+            const auto fewer = iterations / 2;
+            warning->figures["iterations"] = static_cast<double>(fewer);
+            entry.given.set(kIterations, fewer);
         }
     }
 

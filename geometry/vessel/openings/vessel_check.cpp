@@ -33,13 +33,13 @@ bool is_tube(const CenterlineGraph& graph, std::size_t index) {
     return widest > 0.0 && to - from > kShortestTube * 2.0 * widest;
 }
 
-Diagnostic noise(double loops, SurfaceSource source) {
+Diagnostic noise(double loops, SurfaceOrigin source) {
     switch (source) {
-        case SurfaceSource::Mask:
+        case SurfaceOrigin::Mask:
             return {.code = "mask-within-noise", .figures = {{"loops", loops}}};
-        case SurfaceSource::File:
+        case SurfaceOrigin::File:
             return {.code = "surface-within-noise", .figures = {{"loops", loops}}};
-        case SurfaceSource::Intensities:
+        case SurfaceOrigin::Intensities:
             break;
     }
     return {.code = "vessel-within-noise",
@@ -66,7 +66,7 @@ double closed_volume(const Surface& surface) {
     return std::abs(volume);
 }
 
-void require_lumen(const Surface& surface, SurfaceSource source) {
+void require_lumen(const Surface& surface, SurfaceOrigin source) {
     if (surface.empty()) return;
     const double extent = bounds(surface).diagonal();
     const double radius = 2.0 * closed_volume(surface) / area(surface);

@@ -6,12 +6,12 @@
 namespace vesselbench {
 
 /// What a surface was made from.
-enum class SurfaceSource { Intensities, Mask, File };
+enum class SurfaceOrigin { Intensities, Mask, File };
 
 /// Refuses what has no lumen before anything long is tried on it: a sheet, whose thickness is
 /// nothing beside its extent, and noise, a sponge of loops.
 /// \throw InvalidInput; the text says which it is, with its figures and what may help such a source
-void require_lumen(const Surface& surface, SurfaceSource source = SurfaceSource::Intensities);
+void require_lumen(const Surface& surface, SurfaceOrigin source = SurfaceOrigin::Intensities);
 
 /// Volume enclosed by a surface whose open borders are closed by fans [mm^3].
 [[nodiscard]] double closed_volume(const Surface& surface);
