@@ -372,6 +372,10 @@ constexpr CatalogueText kTexts[] = {
     {"edges-limited",
      "edges of {edge_mm} mm, the finest that make no more than 1 million triangles; {fix} makes "
      "them finer or coarser"},
+    {"edges-for-cells",
+     "edges of {edge_mm} mm, {around:%.0f} around the typical vessel, so that about "
+     "{millions:%.2g} million tetrahedra fill it: {fix} allows more of them, {fix2} sets the "
+     "edges"},
     {"crossings-parted",
      "walls that almost touch near {place} crossed after remeshing and were separated there: the "
      "wall may have moved; separate the walls or use a smaller {fix} if that part matters"},

@@ -16,6 +16,7 @@
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/repair/repair.h"
 #include "meshing/remeshing/carried_attributes.h"
+#include "meshing/remeshing/cell_estimate.h"
 #include "meshing/remeshing/local_radius.h"
 #include "meshing/remeshing/remesh_rounds.h"
 #include "meshing/remeshing/sizing_field.h"
@@ -34,6 +35,10 @@ constexpr double kLeastEdge = 0.2, kMostEdge = 2.0;  // in edges
 constexpr double kThin = 0.01;                       // of the wall's vertices
 
 constexpr double kMostVolumeChange = 0.2;  // [-]
+
+/// Fewer edges around a vessel do not show its section.
+constexpr double kFewestAround = 12.0;
+constexpr int kMostFits = 4;
 
 /// The most triangles that are made without being asked for: a tetrahedral mesh has ten times as
 /// many.
@@ -255,8 +260,19 @@ void check_extent(const Surface& surface, const RemeshParameters& parameters, do
 
 struct Decided {
     std::vector<double> radii;  ///< #V [mm]
+    double thin;                ///< radius of the thinnest vessels [mm]
     RemeshReport report;
 };
+
+/// The edges that belong to an edge length at the typical radius.
+void decide_range(double edge, double thin, const RemeshParameters& parameters,
+                  RemeshReport& report) {
+    report.edge = edge;
+    // A tree may have twigs far thinner than its trunk: they need edges of their own size.
+    report.min_edge =
+        parameters.min_edge.value_or(edge * std::min(kLeastEdge, thin / report.usual_radius));
+    report.max_edge = parameters.max_edge.value_or(kMostEdge * edge);
+}
 
 Decided decided(const Surface& surface, const RemeshParameters& parameters,
                 const CenterlineGraph* lines, const Progress& progress) {
@@ -269,35 +285,57 @@ Decided decided(const Surface& surface, const RemeshParameters& parameters,
     RemeshReport report;
     report.usual_radius = usual_radius(surface, radii);
     check_extent(surface, parameters, report.usual_radius);
-    report.edge = parameters.edge.value_or(kEdgePerRadius * report.usual_radius);
-    // A tree may have twigs far thinner than its trunk: they need edges of their own size.
-    report.min_edge = parameters.min_edge.value_or(
-        report.edge * std::min(kLeastEdge, thin_radius(radii, openings) / report.usual_radius));
-    report.max_edge = parameters.max_edge.value_or(kMostEdge * report.edge);
+    const double thin = thin_radius(radii, openings);
+    decide_range(parameters.edge.value_or(kEdgePerRadius * report.usual_radius), thin, parameters,
+                 report);
     report.triangles_before = surface.triangle_count();
-    return {std::move(radii), report};
+    return {std::move(radii), thin, report};
+}
+
+/// Target edges of the vertices for the edges in the report [mm].
+std::vector<double> sizes_for(const Surface& surface, const Decided& decided,
+                              const RemeshParameters& parameters, const Progress& progress) {
+    return sizing_field(surface, decided.radii,
+                        {.edge = decided.report.edge,
+                         .min_edge = decided.report.min_edge,
+                         .max_edge = decided.report.max_edge,
+                         .gradation = parameters.gradation,
+                         .resolution = parameters.resolution},
+                        progress);
+}
+
+/// Lengthens the edges until no more cells than asked for fill the lumen, or the fewest edges that
+/// still show a vessel go around it. The edges that are decided make the same sizes when given.
+void fit_cells(const Surface& surface, const RemeshParameters& parameters, Decided& decided,
+               std::vector<double>& sizes, const Progress& progress) {
+    constexpr double kClose = 1.03, kCubes = 1.0 / 2.5;  // the cells go with the edge's power
+    const double longest = 2.0 * std::numbers::pi / kFewestAround * decided.report.usual_radius;
+    double edge = decided.report.edge;
+    for (int round = 0; round < kMostFits; ++round) {
+        const double cells = expected_cells(surface, sizes, decided.radii);
+        if (round > 0) decided.report.cells = cells;
+        if (cells <= kClose * *parameters.cells || edge >= longest) return;
+        edge = std::min(longest, three_digits(edge * std::pow(cells / *parameters.cells, kCubes)));
+        decide_range(edge, decided.thin, parameters, decided.report);
+        sizes = sizes_for(surface, decided, parameters, progress);
+    }
+    decided.report.cells = expected_cells(surface, sizes, decided.radii);
 }
 
 /// Target edges of the vertices [mm].
-std::vector<double> graded_sizes(const Surface& surface, const std::vector<double>& radii,
-                                 RemeshReport& report, const RemeshParameters& parameters,
-                                 const Progress& progress) {
-    std::vector<double> sizes = sizing_field(surface, radii,
-                                             {.edge = report.edge,
-                                              .min_edge = report.min_edge,
-                                              .max_edge = report.max_edge,
-                                              .gradation = parameters.gradation,
-                                              .resolution = parameters.resolution},
-                                             progress);
-    if (!parameters.edge) limit_count(surface, sizes, report);
+std::vector<double> graded_sizes(const Surface& surface, const RemeshParameters& parameters,
+                                 Decided& decided, const Progress& progress) {
+    std::vector<double> sizes = sizes_for(surface, decided, parameters, progress);
+    if (parameters.edge) return sizes;
+    if (parameters.cells) fit_cells(surface, parameters, decided, sizes, progress);
+    limit_count(surface, sizes, decided.report);
     return sizes;
 }
 
-Surface graded(const Surface& surface, const std::vector<double>& radii, RemeshReport& report,
-               const RemeshParameters& parameters, const Progress& progress) {
-    std::vector<double> sizes =
-        graded_sizes(surface, radii, report, parameters, progress.part(0.0, 0.2));
-    return remeshed_until_sound(surface, std::move(sizes), parameters.gradation, report,
+Surface graded(const Surface& surface, const RemeshParameters& parameters, Decided& decided,
+               const Progress& progress) {
+    std::vector<double> sizes = graded_sizes(surface, parameters, decided, progress.part(0.0, 0.2));
+    return remeshed_until_sound(surface, std::move(sizes), parameters.gradation, decided.report,
                                 progress.part(0.2, 1.0));
 }
 
@@ -324,25 +362,25 @@ void check_volume(const Surface& before, const Surface& after, RemeshReport& rep
 
 RemeshReport decided_edges(const Surface& surface, const RemeshParameters& parameters,
                            const CenterlineGraph* lines, const Progress& progress) {
-    auto [radii, report] = decided(surface, parameters, lines, progress.part(0.0, 0.5));
+    Decided edges = decided(surface, parameters, lines, progress.part(0.0, 0.5));
     if (parameters.mode == RemeshMode::Graded)
-        static_cast<void>(
-            graded_sizes(surface, radii, report, parameters, progress.part(0.5, 1.0)));
-    return report;
+        static_cast<void>(graded_sizes(surface, parameters, edges, progress.part(0.5, 1.0)));
+    return edges.report;
 }
 
 Remeshed remesh(const Surface& surface, const RemeshParameters& parameters,
                 const CenterlineGraph* lines, const Progress& progress) {
-    auto [radii, report] = decided(surface, parameters, lines, progress.part(0.0, 0.1));
+    Decided edges = decided(surface, parameters, lines, progress.part(0.0, 0.1));
+    RemeshReport& report = edges.report;
     Surface result = parameters.mode == RemeshMode::Uniform
                          ? uniform(surface, report, parameters.gradation, progress.part(0.1, 1.0))
-                         : graded(surface, radii, report, parameters, progress.part(0.1, 1.0));
+                         : graded(surface, parameters, edges, progress.part(0.1, 1.0));
     check_volume(surface, result, report);
     result = with_attributes_of(surface, std::move(result));
     report.triangles_after = result.triangle_count();
     report.wall = wall_shape(result);
     report.caps = openings_shape(result);
-    return {std::move(result), report};
+    return {std::move(result), std::move(report)};
 }
 
 }  // namespace vesselbench

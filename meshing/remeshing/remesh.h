@@ -20,6 +20,9 @@ struct RemeshParameters {
     std::optional<double> min_edge = {};
     std::optional<double> max_edge = {};  ///< graded: longest edge [mm]; default 2 edge
     double gradation = 1.5;               ///< graded: largest ratio of neighbouring edges, > 1
+    /// Graded, unless `edge` is given: the edges are so long that about this many tetrahedra fill
+    /// the lumen, but at least 12 go around the typical vessel [-]; default: not limited.
+    std::optional<double> cells = {};
     /// Graded, for prints: longer edges where the surface stays this close [mm]; 0: no
     double resolution = 0.0;
 };
@@ -30,6 +33,8 @@ struct RemeshReport {
     double edge = 0.0;                      ///< [mm]
     double min_edge = 0.0, max_edge = 0.0;  ///< [mm]
     bool limited = false;  ///< edges are longer than usual: there would be too many triangles
+    /// Edges are longer than usual because of `cells`, and how many cells are expected; else 0.
+    double cells = 0.0;
     std::size_t triangles_before = 0, triangles_after = 0;
     double volume_change = 0.0;  ///< of the enclosed volume, relative to that before [-]
     TriangleShape wall, caps;
@@ -44,8 +49,8 @@ struct Remeshed {
     RemeshReport report;
 };
 
-/// The edge lengths that remesh() takes, without remeshing: usual_radius, edge, min_edge, max_edge
-/// and limited of its report.
+/// The edge lengths that remesh() takes, without remeshing: usual_radius, edge, min_edge, max_edge,
+/// limited and cells of its report.
 /// \throw as remesh()
 [[nodiscard]] RemeshReport decided_edges(const Surface& surface, const RemeshParameters& parameters,
                                          const CenterlineGraph* lines = nullptr,

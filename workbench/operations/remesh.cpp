@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <optional>
 
 #include <nlohmann/json.hpp>
@@ -38,6 +39,7 @@ RemeshParameters parameters_from(const Arguments& arguments) {
             .min_edge = arguments.optional_real("min_edge"),
             .max_edge = arguments.optional_real("max_edge"),
             .gradation = arguments.real("gradation"),
+            .cells = arguments.optional_real("cells"),
             .resolution = arguments.real("print_resolution")};
 }
 
@@ -95,6 +97,13 @@ void add_warnings(const RemeshReport& figures, Outcome& outcome) {
         outcome.warnings.push_back({.code = "edges-limited",
                                     .figures = {{"edge_mm", figures.edge}},
                                     .remedies = another_edge});
+    if (figures.cells > 0.0)
+        outcome.warnings.push_back(
+            {.code = "edges-for-cells",
+             .figures = {{"edge_mm", figures.edge},
+                         {"millions", figures.cells / 1e6},
+                         {"around", 2.0 * std::numbers::pi * figures.usual_radius / figures.edge}},
+             .remedies = {{.arguments = {{"cells", ""}}}, {.arguments = {{"edge", ""}}}}});
     if (figures.crossings_parted > 0)
         outcome.warnings.push_back(
             {.code = "crossings-parted", .place = figures.crossing, .remedies = another_edge});
@@ -121,7 +130,7 @@ void resolve_edges(const RemeshReport& figures, Arguments& resolved) {
 
 /// Around a place, the triangles beside it decide how their size changes.
 void refuse_what_is_of_the_whole(const Arguments& arguments) {
-    for (const char* name : {"min_edge", "max_edge", "feature_angle"})
+    for (const char* name : {"min_edge", "max_edge", "cells", "feature_angle"})
         if (arguments.has(name))
             throw UsageError("remesh: " + std::string(name) +
                              " is of the whole wall, and has no effect with at");
@@ -248,6 +257,13 @@ std::vector<Parameter> edge_parameters() {
          .help = "longest edge; default: twice edge",
          .minimum = 0.0,
          .above_minimum = true,
+         .only_with = when_graded()},
+        {.name = "cells",
+         .unit = "-",
+         .help = "unless edge is given: so many tetrahedra may fill the lumen; edges become longer "
+                 "for it, down to 12 around the typical vessel; models for flow use 1500000",
+         .minimum = 1000.0,
+         .maximum = 1e8,
          .only_with = when_graded()},
         {.name = "radius",
          .type = Choice,
