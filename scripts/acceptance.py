@@ -35,7 +35,7 @@ CASES = [
     ("v4a healthy", "surfaces/v4a_ideal_bifurcation_healthy.stl", [], ("cfd", "rp"), True),
     ("aneurisk C0015", "surfaces/vampy_aneurisk_C0015_artery.vtp", [], ("cfd", "rp"), True),
     ("artery bifurcation", "surfaces/vampy_artery_bifurcation.stl", ["--units", "mm"], ("cfd", "rp"), True),
-    ("vein", "surfaces/vampy_vein.stl", ["--units", "mm"], ("cfd", "rp"), True),
+    ("vein", "surfaces/vampy_vein.stl", ["--units", "mm", "--vessel", "vein"], ("cfd", "rp"), True),
     ("aorta closed, inside out", "surfaces/vmtk_aorta_surface.stl", [], ("cfd", "rp"), True),
     ("aorta open ends", "surfaces/vmtk_aorta_surface_open_ends.stl", [], ("cfd", "rp"), True),
     ("aortofemoral (cm)", "surfaces/sv_demo_aortofemoral.vtp", ["--units", "cm"], ("cfd", "rp"), True),

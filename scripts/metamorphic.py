@@ -118,7 +118,8 @@ def prepared(path, unit, out):
     """Openings (place, diameter, kind) and volume; a text if it failed."""
     shutil.rmtree(out, ignore_errors=True)
     recipe = os.path.join(os.path.dirname(out), "recipe.json")
-    run = subprocess.run([PROGRAM, "prepare", path, "--units", unit, "--for", "simulation", "--recipe", recipe, "--out", out],
+    run = subprocess.run([PROGRAM, "prepare", path, "--units", unit, "--for", "simulation", "--vessel", "artery",
+                          "--recipe", recipe, "--out", out],
                          capture_output=True, text=True)
     if run.returncode:
         return f"exit code {run.returncode}: {run.stderr.strip().splitlines()[-1]}"

@@ -322,6 +322,11 @@ constexpr CatalogueText kTexts[] = {
     {"end-in-doubt",
      "it is not certain that {doubts}[. The ends found:{ends}][\n{fix} {advice}][\n{fix2} "
      "{else}][\n{no_way}]"},
+    {"vessel-unstated",
+     "{source} says '{word}', and --vessel does not say what it is\n{fix} takes it as "
+     "{kind}\n{fix2} takes it as an artery, whose blood enters at the trunk"},
+    {"vessel-taken",
+     "{source} says '{word}': the vessel was taken as {kind}[; {fix} takes it as an artery]"},
     {"end-not-cut", "{why}\n{fix} leaves it closed on purpose"},
     {"end-decided", "{end} at {place}, {diameter_mm} mm wide, was {fate}: {why}"},
     {"small-ends-closed",
@@ -342,6 +347,9 @@ constexpr CatalogueText kTexts[] = {
      "{openings} faces the same way as the inlet: if blood flows in there as well, give {fix}"},
     {"further-inlets",
      "{openings} face the same way as the inlet: if blood flows in there as well, give {fix}"},
+    {"portal-vein-inlet",
+     "the blood of a portal vein is taken to enter at {inlets} and to leave at all other ends: "
+     "where it gathers from several veins first, name each of their ends as an inlet"},
     {"cap-tilted",
      "the vessel's direction at '{opening}' is {tilt_deg:%.0f} degrees from the cap's normal: it "
      "is "

@@ -43,16 +43,24 @@ double rim_length(const Surface& surface, std::size_t patch) {
     return length;
 }
 
-/// The flow of each inlet: as given by name, else by area.
+/// What an inlet's share of the flow is proportional to.
+double weight_of(const InletFlow& inlet, FlowSplit split) {
+    // The cube of the diameter of a circle of this area.
+    return split == FlowSplit::Cubes ? std::pow(inlet.area, 1.5) : inlet.area;
+}
+
+/// The flow of each inlet: as given by name, else by the parameters' split.
 void distribute_flow(const CfdParameters& parameters, std::vector<InletFlow>& inlets) {
-    double area = 0.0;
+    const FlowSplit split = parameters.split.value_or(FlowSplit::Area);
+    double all = 0.0;
     std::vector<std::string> names;
     for (const InletFlow& inlet : inlets) {
-        area += inlet.area;
+        all += weight_of(inlet, split);
         names.push_back(inlet.name);
     }
     if (parameters.inlet_flows.empty()) {
-        for (InletFlow& inlet : inlets) inlet.flow = parameters.flow * inlet.area / area;
+        for (InletFlow& inlet : inlets)
+            inlet.flow = parameters.flow * weight_of(inlet, split) / all;
         return;
     }
     for (const auto& [name, flow] : parameters.inlet_flows) {
@@ -72,7 +80,7 @@ void distribute_flow(const CfdParameters& parameters, std::vector<InletFlow>& in
 }  // namespace
 
 FlowSummary flow_summary(const Surface& surface, const CfdParameters& parameters,
-                         double inlet_bend) {
+                         const std::map<std::string, double>& bends) {
     require_positive(parameters.density, "density", "kg/m^3");
     require_positive(parameters.viscosity, "viscosity", "Pa s");
     require_positive(parameters.flow, "flow", "cm^3/s");
@@ -99,9 +107,10 @@ FlowSummary flow_summary(const Surface& surface, const CfdParameters& parameters
             summary.warnings.push_back({.code = "flow-not-laminar",
                                         .figures = {{"reynolds", inlet.reynolds}},
                                         .words = {{"inlet", inlet.name}}});
-        if (inlet_bend > kLargestInletBend)
+        const auto bend = bends.find(inlet.name);
+        if (bend != bends.end() && bend->second > kLargestInletBend)
             summary.warnings.push_back({.code = "inlet-in-bend",
-                                        .figures = {{"turn_deg", inlet_bend}},
+                                        .figures = {{"turn_deg", bend->second}},
                                         .words = {{"inlet", inlet.name}}});
     }
     return summary;

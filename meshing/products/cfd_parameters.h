@@ -1,5 +1,7 @@
 #pragma once
 
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +11,13 @@
 namespace vesselbench {
 
 enum class InflowProfile { Plug, Parabolic };
+
+/// How several inlets share the flow.
+enum class FlowSplit {
+    Area,   ///< all with the same mean velocity
+    Cubes,  ///< by the cubes of the diameters: the same shear in all branches (Murray, "The
+            ///< physiological principle of minimum work", 1926)
+};
 
 /// The flow through one inlet.
 struct NamedFlow {
@@ -20,7 +29,8 @@ struct NamedFlow {
 struct CfdParameters {
     double density = 1000.0;  ///< [kg/m^3], > 0
     double viscosity = 4e-3;  ///< dynamic [Pa s], > 0
-    double flow = 1.2;        ///< through all inlets together [cm^3/s], > 0; distributed by area
+    double flow = 1.2;        ///< through all inlets together [cm^3/s], > 0; distributed by `split`
+    std::optional<FlowSplit> split = std::nullopt;  ///< none: Area
     std::vector<NamedFlow> inlet_flows = {};  ///< in place of it, one for every inlet; or none
     InflowProfile profile = InflowProfile::Parabolic;  ///< Parabolic: as in a long straight duct
     int iterations = 2000;                             ///< largest number of SIMPLE iterations
@@ -50,10 +60,10 @@ inline constexpr double kLaminarReynolds = 2000.0;
 inline constexpr double kLargestInletBend = 15.0;  // [deg]
 
 /// The flow that the parameters imply on this surface.
-/// \param inlet_bend turn of the centerline within two diameters of the inlet [deg]; 0: unknown
+/// \param bends by inlet, turn of the centerline within two diameters [deg]; missing: unknown
 /// \throw AlgorithmFailure if there is no inlet or no outlet; InvalidInput if a parameter is out of
 /// range, or `inlet_flows` does not name every inlet once
 [[nodiscard]] FlowSummary flow_summary(const Surface& surface, const CfdParameters& parameters,
-                                       double inlet_bend = 0.0);
+                                       const std::map<std::string, double>& bends = {});
 
 }  // namespace vesselbench

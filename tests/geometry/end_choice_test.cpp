@@ -757,7 +757,7 @@ SCENARIO("Several ends can be inlets", "[geometry][openings]") {
         CHECK(named.patches[2] == Patch{"inlet_2", PatchKind::Inlet});
         CHECK(patch_shape(named, 1).area >= patch_shape(named, 2).area);
         AND_THEN("one of them alone is the inlet again") {
-            const Surface single = name_openings(named, {}, std::span(both).first(1));
+            const Surface single = name_openings(named, {}, {.points = {both[0]}});
             CHECK(single.patches[1] == Patch{"inlet", PatchKind::Inlet});
             CHECK(single.patches[2] == Patch{"outlet_1", PatchKind::Outlet});
         }

@@ -15,6 +15,7 @@
 #include "geometry/vessel/ends/flow_tree.h"
 #include "geometry/vessel/openings/flow_check.h"
 #include "geometry/vessel/openings/openings.h"
+#include "tests/support/forked_vessel.h"
 #include "tests/support/shapes.h"
 
 using namespace vesselbench;
@@ -23,30 +24,7 @@ using Catch::Matchers::Contains;
 
 namespace {
 
-constexpr double kTrunk = 2.0;
-
-/// A trunk along z that parts at the origin into two daughters, by the radii of the two [mm]. All
-/// ends are open.
-Surface fork(double left, double right, double scale = 1.0) {
-    const auto vessel = [&](const Vec3& to, double from, double radius) {
-        return VesselShape{.points = {Vec3::Zero(), scale * to},
-                           .radii = {scale * from, scale * radius},
-                           .flat_ends = true};
-    };
-    const std::vector<PhantomPart> parts = {
-        {.name = "trunk", .shape = vessel(Vec3(0, 0, -20), kTrunk, kTrunk)},
-        {.name = "left", .shape = vessel(Vec3(-10, 0, 17), left, left), .blend = 0.3 * scale},
-        {.name = "right", .shape = vessel(Vec3(10, 0, 17), right, right), .blend = 0.3 * scale}};
-    const PhantomField field(parts);
-    const Surface closed = exact_surface(field, field.bounds(), 0.35 * scale);
-    std::vector<bool> keep;
-    for (const Triangle& t : closed.triangles()) {
-        const Vec3 middle =
-            (closed.points()[t[0]] + closed.points()[t[1]] + closed.points()[t[2]]) / 3.0;
-        keep.push_back(std::abs(middle.z()) < (middle.z() < 0.0 ? 18.0 : 14.0) * scale);
-    }
-    return select_triangles(closed, keep);
-}
+constexpr double kTrunk = kForkTrunk;
 
 const SurfaceEnd& lowest(const std::vector<SurfaceEnd>& ends) {
     return *std::ranges::min_element(ends, {}, [](const SurfaceEnd& e) { return e.centre.z(); });
@@ -56,7 +34,7 @@ const SurfaceEnd& lowest(const std::vector<SurfaceEnd>& ends) {
 
 SCENARIO("A tree that obeys Murray's law shows its root", "[geometry][ends]") {
     const double daughter = kTrunk / std::cbrt(2.0);
-    const Surface surface = fork(daughter, daughter);
+    const Surface surface = forked_vessel(daughter, daughter);
     const auto graph = centerlines_of(surface);
     const std::vector<SurfaceEnd> ends = find_surface_ends(surface, *graph);
     REQUIRE(ends.size() == 3);
@@ -78,7 +56,7 @@ SCENARIO("The inlet's odds are of all ends, and know no unit", "[geometry][ends]
         return choose_ends({.surface = surface, .graph = *graph},
                            find_surface_ends(surface, *graph), {});
     };
-    const Surface surface = fork(1.4, 1.1);
+    const Surface surface = forked_vessel(1.4, 1.1);
     const EndChoice choice = chosen(surface);
     REQUIRE(choice.inlet);
     double sum = 0.0, most = 0.0;

@@ -63,6 +63,18 @@ SCENARIO("Several inlets share the flow by area, or as given", "[meshing][inflow
         CHECK(summary.inlets[0].flow == Approx(1.5));
         CHECK(summary.inlets[1].mean_velocity == Approx(1.5 / summary.inlets[1].area));
     }
+    THEN("by the cubes of the diameters, a wide inlet carries more than by area") {
+        PatchLabels unequal = *three.patch_labels;
+        *std::ranges::find(unequal, 2) = 3;
+        const Surface narrower = three.with_patches(std::move(unequal), three.patches);
+        const FlowSummary by_area = flow_summary(narrower, {.flow = 3.0});
+        const FlowSummary summary =
+            flow_summary(narrower, {.flow = 3.0, .split = FlowSplit::Cubes});
+        const auto &a = summary.inlets[0], &b = summary.inlets[1];
+        CHECK(a.flow + b.flow == Approx(3.0));
+        CHECK(a.flow / b.flow == Approx(std::pow(a.area / b.area, 1.5)));
+        CHECK(by_area.inlets[0].flow / by_area.inlets[1].flow == Approx(a.area / b.area));
+    }
     THEN("flows that are given by name count") {
         const FlowSummary summary = flow_summary(three, {.inlet_flows = {{"b", 2.0}, {"a", 0.5}}});
         CHECK(summary.inlets[0].flow == 0.5);
@@ -89,7 +101,7 @@ SCENARIO("Reynolds number and warnings", "[meshing][inflow]") {
         }
     }
     GIVEN("thirty times that flow, in a bend") {
-        const FlowSummary summary = flow_summary(tube, {.flow = 36.0}, 40.0);
+        const FlowSummary summary = flow_summary(tube, {.flow = 36.0}, {{"inlet", 40.0}});
         THEN("both are warned of") {
             REQUIRE(summary.warnings.size() == 2);
             CHECK(summary.warnings[0].code == "flow-not-laminar");

@@ -210,6 +210,7 @@ struct InputArguments {
 /// "x,y,z" [mm].
 struct EndArguments {
     std::vector<std::string> inlets, open, close;
+    std::string vessel;  ///< "artery", "vein" or "portal"; empty: not said
     bool accept_doubts = false;
 };
 

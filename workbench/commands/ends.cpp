@@ -5,6 +5,7 @@
 #include "geometry/kernel/pending_files.h"
 #include "geometry/kernel/wording.h"
 #include "gpu/png.h"
+#include "workbench/case/diagnostic_words.h"
 #include "workbench/case/json_text.h"
 #include "workbench/commands/commands.h"
 #include "workbench/commands/console/console.h"
@@ -44,6 +45,7 @@ void list_ends(const EndsOptions& options, const Progress& progress) {
                                            .mask_is = options.input.mask_is},
                                           "cfd", with_ends(options.settings, options.ends), remark,
                                           progress.part(0.0, 0.7));
+    if (before.doubt) warn(worded(*before.doubt));
     OpeningPlan plan = planned_openings(before.scene, before.cutting, progress.part(0.7, 1.0));
     const std::vector<std::string> names = planned_names(plan);
     plan.ends = ends_by_number(plan);

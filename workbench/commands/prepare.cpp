@@ -20,6 +20,7 @@
 #include "workbench/prepare/case_files.h"
 #include "workbench/prepare/end_settings.h"
 #include "workbench/prepare/prepared_purposes.h"
+#include "workbench/prepare/vessel_question.h"
 #include "workbench/report/log_json.h"
 #include "workbench/review/acceptance.h"
 #include "workbench/review/provenance.h"
@@ -94,6 +95,7 @@ std::vector<std::string> with_ends(std::vector<std::string> settings, const EndA
          {std::pair{"inlet", &ends.inlets}, {"open", &ends.open}, {"close", &ends.close}})
         for (std::string& setting : end_settings(what, *texts))
             settings.push_back(std::move(setting));
+    if (!ends.vessel.empty()) settings.push_back("clip-opening.vessel=" + ends.vessel);
     if (ends.accept_doubts) settings.emplace_back("clip-opening.accept_doubts=true");
     return settings;
 }
@@ -162,7 +164,7 @@ void export_project(const ExportArguments& arguments, const Progress& progress) 
                    printable(entry.edit.operation) +
                    " no longer applies and is not in the model: " + entry.reason);
     const ExportOptions options{
-        .flow = flow.parameters(),
+        .flow = flow_in_vessel(flow.parameters(), session.log(variant)),
         .provenance = provenance(session, variant, review),
         .shown = shown_contents(arguments, session, variant, scene, progress.part(0.6, 0.7))};
     PendingFiles files;

@@ -120,6 +120,13 @@ void add_end_options(CLI::App& command, EndArguments& ends) {
     add("--open", ends.open,
         "Vessel ends that are opened: numbers N,N or a place; may be repeated");
     add("--close", ends.close, "Vessel ends that stay closed, likewise");
+    command
+        .add_option("--vessel", ends.vessel,
+                    "vein: blood gathers from all other ends to the trunk, which is the outlet; "
+                    "artery, portal: it enters at the trunk (default: as in an artery; asked where "
+                    "a label, patch or file is named like a vein)")
+        ->check(CLI::IsMember({"artery", "vein", "portal"}).description(""))
+        ->type_name("artery|vein|portal");
     command.add_flag("--accept-doubts", ends.accept_doubts,
                      "Where the odds do not decide about a vessel end, take the likelier choice");
 }

@@ -13,9 +13,14 @@ std::vector<Parameter> flow_parameters() {
     return {{.name = "flow",
              .unit = "cm^3/s",
              .default_value = d.flow,
-             .help = "total inflow of blood through all inlets; distributed by their areas",
+             .help = "total inflow of blood through all inlets; split among them",
              .minimum = 0.0,
              .above_minimum = true},
+            {.name = "split",
+             .type = Choice,
+             .help = "how several inlets share it: by their areas, or by the cubes of their "
+                     "diameters (Murray); default: area, of a vein cubes",
+             .choices = {"area", "cubes"}},
             {.name = "inlet_flows",
              .type = Text,
              .help = "flow of each inlet [cm^3/s] in place of it: inlet_1:2.5,inlet_2:1.8"},
@@ -87,6 +92,8 @@ CfdParameters flow_from(const Arguments& arguments) {
     take("density", flow.density);
     take("viscosity", flow.viscosity);
     take("residual", flow.residual);
+    if (arguments.has("split"))
+        flow.split = arguments.text("split") == "cubes" ? FlowSplit::Cubes : FlowSplit::Area;
     if (arguments.has("inlet_flows")) flow.inlet_flows = flows_in(arguments.text("inlet_flows"));
     if (arguments.has("profile"))
         flow.profile =

@@ -21,8 +21,11 @@ using nlohmann::ordered_json;
 void add_flow_warnings(const Arguments& arguments, const Clipping& made,
                        const ordered_json& openings, Outcome& outcome) {
     const bool own_choice = !arguments.has("tip") && !arguments.has("inlet");
+    const bool further = own_choice && !gathers(arguments);
+    const bool portal = own_choice && arguments.optional_text("vessel") == kPortalVein;
     for (const auto& warning :
-         {tilt_warning(openings), own_choice ? further_inlets(made.surface) : std::nullopt})
+         {tilt_warning(openings), further ? further_inlets(made.surface) : std::nullopt,
+          portal ? std::optional(portal_inlet(made.surface)) : std::nullopt})
         if (warning) outcome.warnings.push_back(*warning);
 }
 

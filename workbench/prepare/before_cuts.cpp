@@ -8,6 +8,7 @@
 #include "workbench/case/checked_arguments.h"
 #include "workbench/operations/table.h"
 #include "workbench/prepare/prepared_purposes.h"
+#include "workbench/prepare/vessel_question.h"
 #include "workbench/session/session.h"
 
 namespace vesselbench {
@@ -56,11 +57,13 @@ BeforeCuts before_cuts(const InputOptions& options, const std::string& purpose,
     const auto cut = std::ranges::find_if(recipe, cuts_ends);
     BeforeCuts before;
     if (cut == recipe.end()) throw UsageError("the recipe opens no vessel ends");
-    before.cutting = checked_arguments(cut->given);
+    const GivenArguments cutting = cut->given;
+    before.cutting = checked_arguments(cutting);
     recipe.erase(cut, recipe.end());
     Session session = Session::unsaved({.find = find_operation});
     apply_recipe(session, recipe, purpose, tell, progress.part(0.02, 1.0));
     before.scene = session.scene(purpose);
+    before.doubt = vessel_doubt(cutting, session);
     return before;
 }
 

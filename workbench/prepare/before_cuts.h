@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,8 @@ namespace vesselbench {
 /// A case whose vessel ends are about to be opened.
 struct BeforeCuts {
     Scene scene;
-    Arguments cutting;  ///< arguments of the edit that would open them
+    Arguments cutting;                     ///< arguments of the edit that would open them
+    std::optional<Diagnostic> doubt = {};  ///< about the vessel (vessel_doubt), of a new INPUT
 };
 
 /// True for the entry of a recipe that opens vessel ends.

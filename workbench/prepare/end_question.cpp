@@ -69,12 +69,14 @@ Json question_json(const OpeningPlan& plan, const std::vector<Diagnostic>& doubt
         const EndRecord& end = plan.ends[i];
         const bool doubtful = in_doubt.contains(end.number);
         const bool counts = doubtful || end.share() > kLeastShare;
-        ends[i]["proposal"] = to_string(proposed_role(plan, end));
+        const EndRole role = proposed_role(plan, end);
+        ends[i]["proposal"] = to_string(role);
         ends[i]["in_doubt"] = doubtful;
         ends[i]["counts"] = counts;
-        // What goes with another end's cut is not to be closed by itself.
-        ends[i]["stated"] =
-            doubtful || end.asked || end.wanted || (counts && end.fate != EndFate::Removed);
+        // What goes with another end's cut is not to be closed by itself. Where inlets are named,
+        // no other end is one.
+        ends[i]["stated"] = doubtful || end.asked || end.wanted || role == EndRole::Inlet ||
+                            (counts && end.fate != EndFate::Removed);
     }
     return {{"doubt", sentence_of(doubts.front())}, {"ends", std::move(ends)}};
 }

@@ -30,6 +30,7 @@
 #include "workbench/prepare/result_folder.h"
 #include "workbench/prepare/resume.h"
 #include "workbench/prepare/resumed_recipe.h"
+#include "workbench/prepare/vessel_question.h"
 #include "workbench/review/provenance.h"
 #include "workbench/session/export_record.h"
 #include "workbench/session/stored_texts.h"
@@ -279,6 +280,7 @@ PrepareSummary finished(Session& session, const Recipe& rest, const PrepareOptio
         prepared.warnings.push_back(std::move(kept));
     if (warning) prepared.warnings.push_back(*warning);
     prepared.scene = session.scene(options.purpose);
+    prepared.flow = flow_in_vessel(prepared.flow, session.log(options.purpose));
     refuse_stale_edits(session.log(options.purpose));
     end_purpose(options.out / kProjectFile, options.purpose);
     fold_log(session);

@@ -89,12 +89,14 @@ Json flow_json(const FlowSummary& summary, const CfdParameters& flow) {
                           {"flow_cm3_s", inlet.flow},
                           {"mean_velocity_m_s", inlet.mean_velocity},
                           {"reynolds", inlet.reynolds}});
-    return {{"density_kg_m3", flow.density},
-            {"viscosity_pa_s", flow.viscosity},
-            {"flow_cm3_s", flow.flow},
-            {"profile", flow.profile == InflowProfile::Plug ? "plug" : "parabolic"},
-            {"inlets", inlets},
-            {"outlets", summary.outlets}};
+    Json json = {{"density_kg_m3", flow.density},
+                 {"viscosity_pa_s", flow.viscosity},
+                 {"flow_cm3_s", flow.flow},
+                 {"profile", flow.profile == InflowProfile::Plug ? "plug" : "parabolic"},
+                 {"inlets", inlets},
+                 {"outlets", summary.outlets}};
+    if (flow.split) json["split"] = *flow.split == FlowSplit::Cubes ? "cubes" : "area";
+    return json;
 }
 
 Json openings_json(const Surface& surface, const std::vector<PatchMeasures>& patches) {
@@ -105,12 +107,13 @@ Json openings_json(const Surface& surface, const std::vector<PatchMeasures>& pat
     return openings;
 }
 
-/// Turn of the vessel just inside the inlet [deg]; 0 if it cannot be measured.
-double inlet_bend(const Json& openings) {
+/// By inlet, turn of the vessel just inside it [deg], where it can be measured.
+std::map<std::string, double> inlet_bends(const Json& openings) {
+    std::map<std::string, double> bends;
     for (const Json& opening : openings)
         if (opening["kind"] == "inlet" && opening["bend_deg"].is_number())
-            return opening["bend_deg"];
-    return 0.0;
+            bends[opening["name"]] = opening["bend_deg"];
+    return bends;
 }
 
 void add_quality(Json& report, const Scene& source, const Surface& surface) {
@@ -140,7 +143,7 @@ std::vector<Diagnostic> add_flow(Json& report, const PreparedCase& prepared,
                                  const std::vector<LogEntry>& edits) {
     report["volume_mesh"] = volume_mesh_json(edits);
     const FlowSummary summary =
-        flow_summary(*prepared.scene.surface, prepared.flow, inlet_bend(report["openings"]));
+        flow_summary(*prepared.scene.surface, prepared.flow, inlet_bends(report["openings"]));
     report["flow"] = flow_json(summary, prepared.flow);
     return summary.warnings;
 }

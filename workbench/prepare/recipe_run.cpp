@@ -11,6 +11,7 @@
 #include "workbench/case/diagnostic_words.h"
 #include "workbench/operations/table.h"
 #include "workbench/prepare/extraction_entry.h"
+#include "workbench/prepare/vessel_question.h"
 #include "workbench/report/log_json.h"
 #include "workbench/session/surface_change.h"
 
@@ -110,7 +111,9 @@ public:
 
     void apply(const RecipeEntry& entry, const Progress& progress) {
         if (watch_.before) watch_.before(step_of(entry));
-        const std::optional<LogEntry> done = made(extraction_entry(entry, session_), progress);
+        const VesselEntry as = vessel_entry(extraction_entry(entry, session_), session_);
+        const std::optional<LogEntry> done = made(as.entry, progress);
+        if (done && as.warning) warn_of(*as.warning, as.entry, *done);
         if (done && watch_.after) watch_.after(*done);
     }
 
@@ -297,11 +300,15 @@ std::vector<Diagnostic> warnings_of(const LogEntry& entry) {
 void run_recipe(Session& session, const Recipe& recipe, const std::string& variant,
                 const Teller& tell, const Progress& progress, const RecipeWatch& watch) {
     RecipeRun run(session, variant, tell, watch);
+    bool loaded = false;
     const double share = 1.0 / static_cast<double>(std::max<std::size_t>(recipe.size(), 1));
     for (std::size_t i = 0; i < recipe.size(); ++i) {
         const double from = share * static_cast<double>(i);
         const Progress part = progress.part(from, from + share);
         run.run_pending(step_of(recipe[i]), part);
+        if (!loaded && !recipe[i].given.operation().recipe.loads)
+            require_stated_vessel(std::span(recipe).subspan(i), session);
+        loaded = loaded || !recipe[i].given.operation().recipe.loads;
         if (!is_left_out(session, recipe[i], variant)) run.apply(recipe[i], part);
     }
 }

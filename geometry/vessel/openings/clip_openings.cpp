@@ -199,7 +199,7 @@ public:
         for (const PlannedClosing& closing : plan_.closings) close(closing, clipped.failed);
         check_flatness(clipped.failed);
         const std::vector<std::string> unnamed = name_made();
-        clipped.surface = name_openings(result_, unnamed, inlet.points, inlet.promote);
+        clipped.surface = name_openings(result_, unnamed, inlet);
         return clipped;
     }
 

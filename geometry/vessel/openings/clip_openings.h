@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "geometry/kernel/progress.h"
+#include "geometry/vessel/openings/opening_names.h"
 #include "geometry/vessel/openings/openings.h"
 
 namespace vesselbench {
@@ -10,13 +11,6 @@ namespace vesselbench {
 struct ClippedSurface {
     Surface surface;
     std::vector<FailedCut> failed;  ///< openings left out; empty: everything was done
-};
-
-/// Who becomes an inlet.
-struct InletChoice {
-    Positions points = {};  ///< near the openings that are the inlets [mm]
-    /// Without any, and if every opening is an outlet, the largest becomes the inlet.
-    bool promote = false;
 };
 
 /// Does what the plan says, and names the openings (name_openings).

@@ -44,9 +44,9 @@ std::string ends_text(const OpeningPlan& plan) {
 struct FlowProblem {
     std::string code;  ///< of the diagnostics; empty: there is no problem
     std::map<std::string, std::string> words;
-    std::vector<EndRecord> ends;  ///< the largest share first
-    bool doubts = false;          ///< nothing is wrong if the likelier choice is right
-    int inlet = 0;                ///< number of the inlet where that is in doubt; 0: it is not
+    std::vector<EndRecord> ends;   ///< the largest share first
+    bool doubts = false;           ///< nothing is wrong if the likelier choice is right
+    std::vector<int> inlets = {};  ///< numbers of the inlets where they are in doubt
 };
 
 bool has_opening(const EndRecord& end) {
@@ -92,27 +92,40 @@ std::string numbered(const EndRecord& end) {
            formatted(100.0 * end.share(), "%.3g %% of the flow");
 }
 
-/// The end that is the inlet, and the likeliest of the others; null: there is none.
-std::pair<const EndRecord*, const EndRecord*> inlet_and_rival(const OpeningPlan& plan) {
-    const EndRecord *inlet = nullptr, *rival = nullptr;
+bool is_inlet(const OpeningPlan& plan, const EndRecord& end) {
+    return end.opening && std::ranges::count(plan.inlets, *end.opening) > 0;
+}
+
+/// The end of the trunk, which is the inlet, or the outlet where blood gathers, and the likeliest
+/// of the others; null: there is none.
+std::pair<const EndRecord*, const EndRecord*> trunk_and_rival(const OpeningPlan& plan) {
+    const EndRecord *trunk = nullptr, *rival = nullptr;
     for (const EndRecord& end : plan.ends) {
         if (!end.verdict || !end.verdict->inlet || !end.opening) continue;
-        if (std::ranges::count(plan.inlets, *end.opening) > 0)
-            inlet = &end;
+        if (is_inlet(plan, end) != plan.gathers)
+            trunk = &end;
         else if (!rival || end.verdict->inlet->odds > rival->verdict->inlet->odds)
             rival = &end;
     }
-    return {inlet, rival};
+    return {trunk, rival};
 }
 
-std::string inlet_doubt_text(const EndRecord& inlet, const EndRecord& rival) {
+std::vector<int> inlet_numbers(const OpeningPlan& plan) {
+    std::vector<int> numbers;
+    for (const EndRecord& end : plan.ends)
+        if (end.number > 0 && is_inlet(plan, end)) numbers.push_back(end.number);
+    std::ranges::sort(numbers);
+    return numbers;
+}
+
+std::string trunk_doubt_text(const EndRecord& trunk, const EndRecord& rival, bool gathers) {
     const auto likely = [](const EndRecord& end) {
         return formatted(100.0 * end.verdict->inlet->odds, "%.0f %% likely");
     };
-    return "the blood enters at end " + std::to_string(inlet.number) + " at " +
-           place_text(inlet.place) + " (" + likely(inlet) + "), rather than at end " +
-           std::to_string(rival.number) + " at " + place_text(rival.place) + " (" + likely(rival) +
-           ")";
+    return std::string("the blood ") + (gathers ? "leaves" : "enters") + " at end " +
+           std::to_string(trunk.number) + " at " + place_text(trunk.place) + " (" + likely(trunk) +
+           "), rather than at end " + std::to_string(rival.number) + " at " +
+           place_text(rival.place) + " (" + likely(rival) + ")";
 }
 
 std::string doubt_text(const EndRecord& end) {
@@ -147,10 +160,10 @@ FlowProblem flow_problem(const OpeningPlan& plan, bool accept_doubts) {
     collect([&](const EndRecord& end) { return is_doubtful(plan, end); });
     std::vector<std::string> doubts;
     for (const EndRecord& end : problem.ends) doubts.push_back(doubt_text(end));
-    if (const auto [inlet, rival] = inlet_and_rival(plan); plan.inlet_doubtful && inlet && rival) {
-        problem.inlet = inlet->number;
-        doubts.push_back(inlet_doubt_text(*inlet, *rival));
-        if (problem.ends.empty()) problem.ends = {*inlet};
+    if (const auto [trunk, rival] = trunk_and_rival(plan); plan.inlet_doubtful && trunk && rival) {
+        problem.inlets = inlet_numbers(plan);
+        doubts.push_back(trunk_doubt_text(*trunk, *rival, plan.gathers));
+        if (problem.ends.empty()) problem.ends = {*trunk};
     }
     if (doubts.empty()) return problem;
     problem.doubts = true;
@@ -189,7 +202,9 @@ Advice answers(const FlowProblem& problem, const OpeningPlanOptions& options) {
                   .effect =
                       "answers as is likelier: change the numbers that are "
                       "wrong"};
-    if (problem.inlet > 0) advice.arguments["inlet_ends"] = std::to_string(problem.inlet);
+    std::vector<std::string> inlets;
+    for (const int number : problem.inlets) inlets.push_back(std::to_string(number));
+    if (!inlets.empty()) advice.arguments["inlet_ends"] = joined(inlets, ",");
     if (!open.empty()) advice.arguments["open_ends"] = joined(open, ",");
     if (!closed.empty()) advice.arguments["close_ends"] = joined(closed, ",");
     return advice;

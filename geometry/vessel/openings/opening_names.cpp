@@ -144,9 +144,10 @@ public:
         }
     }
 
-    [[nodiscard]] Surface named() {
+    [[nodiscard]] Surface named(bool gathers) {
+        const int first = gathers && open_.size() == 1 ? 0 : 1;
         for (const std::size_t p : open_)
-            patches_[p] = {free_patch_name("outlet", 1, patches_), PatchKind::Outlet};
+            patches_[p] = {free_patch_name("outlet", first, patches_), PatchKind::Outlet};
         return ordered(surface_, patches_, areas_);
     }
 
@@ -199,13 +200,13 @@ std::string free_patch_name(const std::string& stem, int first, const std::vecto
 }
 
 Surface name_openings(const Surface& surface, const std::vector<std::string>& unnamed,
-                      std::span<const Vec3> inlets, bool promote) {
+                      const InletChoice& choice) {
     Namer namer(surface, unnamed);
-    if (inlets.empty())
-        namer.find_inlet(promote);
+    if (choice.points.empty())
+        namer.find_inlet(choice.promote);
     else
-        namer.make_inlets(inlets);
-    return namer.named();
+        namer.make_inlets(choice.points);
+    return namer.named(choice.gathers);
 }
 
 std::vector<std::size_t> likely_inlets(const Surface& surface) {

@@ -73,7 +73,8 @@ struct OpeningPlan {
     std::vector<EndRecord> ends;       ///< every end found, worst first
     std::vector<Diagnostic> warnings;  ///< about the places of openings: bends, doubtful axes
     std::vector<std::size_t> inlets;   ///< the openings that are inlets; empty: chosen by width
-    bool inlet_doubtful = false;       ///< another end may be the inlet as well
+    bool gathers = false;              ///< as asked for (OpeningPlanOptions)
+    bool inlet_doubtful = false;       ///< another end may be the trunk's as well
 };
 
 /// A place where a cut was tried without success.
@@ -98,6 +99,9 @@ struct OpeningPlanOptions {
     bool leave_closed = false;
     /// Of ends that may be openings or not, the likelier choice is made (check_flow).
     bool accept_doubts = false;
+    /// The blood gathers, as in a vein: it enters at all ends but the trunk's, unless `inlets` or
+    /// the surface's patches name those where it does.
+    bool gathers = false;
     /// That the surface was made from.
     std::optional<ImageBox> image;
     Positions inlets;  ///< near the ends that are inlets: they have to be opened [mm]

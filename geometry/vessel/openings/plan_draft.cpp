@@ -168,7 +168,7 @@ OpeningPlan PlanDraft::finished() {
         records_[e].opening = plan_.openings.size();
         plan_.openings.push_back(*made_[e]);
     }
-    choose_inlet();
+    choose_inlets();
     plan_.ends = records_;
     add_threads();
     plan_.ends.insert(plan_.ends.end(), stubs_.begin(), stubs_.end());
@@ -180,17 +180,55 @@ OpeningPlan PlanDraft::finished() {
     return std::move(plan_);
 }
 
-/// Those that were named; else the likeliest, unless the surface names one.
-void PlanDraft::choose_inlet() {
-    const bool named = std::ranges::count(surface_.patches, PatchKind::Inlet, &Patch::kind) > 0;
-    if (inlets_.empty() && !named && choice_.inlet && made_[*choice_.inlet]) {
-        inlets_.push_back(*choice_.inlet);
-        std::vector<bool> opened;
-        for (const auto& made : made_) opened.push_back(made.has_value());
-        plan_.inlet_doubtful = has_rival(choice_.ends, *choice_.inlet, opened);
-    }
+/// Those that were named; else as the trunk says, unless the surface names one.
+void PlanDraft::choose_inlets() {
+    plan_.gathers = options_.gathers;
+    if (inlets_.empty() &&
+        std::ranges::count(surface_.patches, PatchKind::Inlet, &Patch::kind) == 0)
+        take_trunk();
     for (const std::size_t e : inlets_)
         if (made_[e]) plan_.inlets.push_back(*records_[e].opening);
+}
+
+/// The blood enters at the trunk, or where it gathers at all other ends.
+void PlanDraft::take_trunk() {
+    const auto trunk = this->trunk();
+    if (!trunk) return;
+    std::vector<bool> opened;
+    for (const auto& made : made_) opened.push_back(made.has_value());
+    std::vector<bool> outlets = named_outlets();
+    if (!options_.gathers || std::ranges::count(outlets, true) == 0) {
+        plan_.inlet_doubtful = has_rival(choice_.ends, *trunk, opened);
+        outlets.assign(made_.size(), false);
+        outlets[*trunk] = true;
+    }
+    for (std::size_t e = 0; e < made_.size(); ++e)
+        if (opened[e] && outlets[e] != options_.gathers) inlets_.push_back(e);
+}
+
+/// The likeliest; where blood gathers and it is not open, the likeliest of the others, since all
+/// but one have to be inlets.
+std::optional<std::size_t> PlanDraft::trunk() const {
+    if (choice_.inlet && made_[*choice_.inlet]) return choice_.inlet;
+    std::optional<std::size_t> found;
+    for (std::size_t e = 0; options_.gathers && e < made_.size(); ++e) {
+        const auto& inlet = choice_.ends[e].inlet;
+        if (made_[e] && inlet && (!found || inlet->odds > choice_.ends[*found].inlet->odds))
+            found = e;
+    }
+    return found;
+}
+
+/// By end: those that the surface's patches name; none, if that would leave no inlet.
+std::vector<bool> PlanDraft::named_outlets() const {
+    std::vector<bool> outlets;
+    bool inlet_left = false;
+    for (const auto& made : made_) {
+        outlets.push_back(made && made->patch && made->patch->kind == PatchKind::Outlet);
+        inlet_left = inlet_left || (made && !outlets.back());
+    }
+    if (!inlet_left) outlets.assign(outlets.size(), false);
+    return outlets;
 }
 
 void PlanDraft::number_ends() {

@@ -84,7 +84,10 @@ public:
 
 private:
     void add_threads();
-    void choose_inlet();
+    void choose_inlets();
+    void take_trunk();
+    [[nodiscard]] std::optional<std::size_t> trunk() const;
+    [[nodiscard]] std::vector<bool> named_outlets() const;
     void number_ends();
 
     const Surface& surface_;

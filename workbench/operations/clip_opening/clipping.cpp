@@ -34,7 +34,8 @@ constexpr double kFarthestInlet = 2.0;
 constexpr double kSameVessel = 1.0;
 
 void name_opening(OpeningPlan& plan, const Arguments& arguments) {
-    const auto kind = arguments.optional_text("kind");
+    auto kind = arguments.optional_text("kind");
+    if (!kind && arguments.has("tip") && gathers(arguments)) kind = to_string(PatchKind::Inlet);
     const auto name = arguments.optional_text("name");
     if (kind || name)
         for (auto& opening : plan.openings) opening.patch = chosen_patch(opening.patch, kind, name);
@@ -44,7 +45,7 @@ void name_opening(OpeningPlan& plan, const Arguments& arguments) {
 /// open (with_inlets).
 InletChoice inlet_choice(const OpeningPlan& plan, const Arguments& arguments) {
     if (arguments.has("tip")) return {};
-    InletChoice choice{.promote = true};
+    InletChoice choice{.promote = true, .gathers = plan.gathers};
     for (const std::size_t inlet : plan.inlets)
         choice.points.push_back(plan.openings[inlet].place.plane.point);
     return choice;
@@ -77,7 +78,7 @@ Vec3 inlet_meant(const Surface& surface, const OpeningPlan& plan, const Vec3& po
 Surface with_inlets(const Surface& surface, const OpeningPlan& plan, Positions points) {
     if (points.empty()) return surface;
     for (Vec3& point : points) point = inlet_meant(surface, plan, point);
-    return name_openings(surface, {}, points);
+    return name_openings(surface, {}, {.points = std::move(points)});
 }
 
 /// \throw AlgorithmFailure for a closed surface without a tube

@@ -70,6 +70,13 @@ std::optional<Diagnostic> tilt_warning(const ordered_json& openings) {
                       .remedies = {{.arguments = {{"strict", "true"}}}}};
 }
 
+Diagnostic portal_inlet(const Surface& surface) {
+    std::vector<std::string> inlets;
+    for (const Patch& patch : surface.patches)
+        if (patch.kind == PatchKind::Inlet) inlets.push_back(patch.name);
+    return {.code = "portal-vein-inlet", .words = {{"inlets", enumerated(inlets)}}};
+}
+
 std::optional<Diagnostic> further_inlets(const Surface& surface) {
     const std::vector<std::size_t> likely = likely_inlets(surface);
     if (likely.empty()) return std::nullopt;

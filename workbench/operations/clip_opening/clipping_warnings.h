@@ -18,6 +18,9 @@ namespace vesselbench {
 /// \param openings of the report (record_of)
 [[nodiscard]] std::optional<Diagnostic> tilt_warning(const nlohmann::ordered_json& openings);
 
+/// Where the blood of a portal vein is taken to enter.
+[[nodiscard]] Diagnostic portal_inlet(const Surface& surface);
+
 /// What to say of outlets that look like inlets; none if there are none.
 [[nodiscard]] std::optional<Diagnostic> further_inlets(const Surface& surface);
 

@@ -50,6 +50,17 @@ std::vector<Parameter> place_parameters() {
              .only_with = of_one}};
 }
 
+/// How the blood runs through the ends.
+Parameter vessel_parameter() {
+    return {.name = "vessel",
+            .type = ParameterType::Choice,
+            .help =
+                "artery or portal: the blood enters at the trunk's end and leaves at all others; "
+                "vein: it enters at all others and leaves at the trunk's; default: as in an "
+                "artery",
+            .choices = {kArtery, kVein, kPortalVein}};
+}
+
 /// Which ends are opened, if all of them are looked at.
 std::vector<Parameter> choice_parameters() {
     using enum ParameterType;
@@ -134,6 +145,7 @@ std::vector<Parameter> decision_parameters() {
 
 std::vector<Parameter> clip_opening_parameters() {
     std::vector<Parameter> all = place_parameters();
+    all.push_back(vessel_parameter());
     for (Parameter& parameter : choice_parameters()) all.push_back(std::move(parameter));
     for (Parameter& parameter : decision_parameters()) all.push_back(std::move(parameter));
     return all;
@@ -151,6 +163,10 @@ void check_clip_arguments(const Arguments& arguments) {
         if (arguments.has(name) && arguments.list(name).size() % 3 != 0)
             throw UsageError("clip-opening: " + std::string(name) +
                              " needs three numbers for each end");
+}
+
+bool gathers(const Arguments& arguments) {
+    return arguments.optional_text("vessel") == kVein;
 }
 
 bool names_numbers(const Arguments& arguments) {
@@ -173,6 +189,7 @@ OpeningPlanOptions plan_options(const Arguments& arguments, const std::optional<
                                .radii = arguments.optional_real("radii"),
                                .strict = arguments.flag("strict"),
                                .border_cuts = image.has_value()};
+    options.gathers = gathers(arguments);
     options.accept_doubts = arguments.flag("accept_doubts");
     options.leave_closed = arguments.text("closed_ends") == "leave";
     if (options.leave_closed) options.border_cuts = false;

@@ -26,6 +26,12 @@ inline constexpr std::array<NumberParameter, 3> kNumberParameters = {
      {"open_ends", "open", &OpeningPlanOptions::open},
      {"close_ends", "closed", &OpeningPlanOptions::closed}}};
 
+/// Values of `vessel`. The blood of a portal vein enters at its trunk, as in an artery.
+inline constexpr const char *kArtery = "artery", *kVein = "vein", *kPortalVein = "portal";
+
+/// True if the blood gathers, as in a vein: all ends but the trunk's are inlets.
+[[nodiscard]] bool gathers(const Arguments& arguments);
+
 [[nodiscard]] bool names_numbers(const Arguments& arguments);
 
 /// \throw UsageError if arguments contradict each other, or points have too few numbers
