@@ -103,9 +103,8 @@ std::optional<Diagnostic> vessel_doubt(const GivenArguments& given, Session& ses
 }
 
 void require_stated_vessel(std::span<const RecipeEntry> rest, Session& session) {
-    const auto cut = std::ranges::find_if(rest, [](const RecipeEntry& entry) {
-        return entry.given.operation().recipe.cuts_ends;
-    });
+    const auto cut = std::ranges::find_if(
+        rest, [](const RecipeEntry& entry) { return entry.given.operation().recipe.cuts_ends; });
     if (cut == rest.end() || accepts_doubts(cut->given)) return;
     if (auto doubt = vessel_doubt(cut->given, session)) throw DiagnosedFailure(std::move(*doubt));
 }
