@@ -125,7 +125,7 @@ A surface file rarely states its unit. What it can be is weighed by four figures
 (twice the volume over the area), the extent, the mean edge, which a segmentation has from its voxels, and the distance of the
 model from the origin, since most keep the scanner's coordinates. Before that, {mm:.0f} % of such files are taken to be in mm,
 {cm:.0f} % in cm and {m:.0f} % in m; a file of SimVascular's is in cm as the others are in mm. What is more likely than
-{certain:.0f} % is taken and said; else `prepare` asks. Openings, areas and lengths beyond all vessels' count against a reading, too.
+{certain:.0f} % is taken and said; else `prepare` asks. Openings, areas and lengths that no vessel has count against a reading.
 
 Below, every surface was stored in each unit, and the fit did not know its patient. Of the surfaces stored in mm, as most are,
 {asked:.1f} % are asked about.
