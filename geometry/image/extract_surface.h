@@ -24,10 +24,10 @@ enum class ExtractionMethod {
     Wall        ///< a drawn mask's surface, refined by the image (drawn_wall.h)
 };
 
-/// "threshold", "labels", "masked", "wall"
 /// The voxels of labels or a mask alone decide about the inside: there is no threshold.
 [[nodiscard]] bool takes_voxels(ExtractionMethod method);
 
+/// "threshold", "labels", "masked", "wall"
 [[nodiscard]] std::string to_string(ExtractionMethod method);
 
 /// Where the surface of a mask or of labels lies between the voxels.

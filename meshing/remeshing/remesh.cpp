@@ -310,16 +310,15 @@ void fit_cells(const Surface& surface, const RemeshParameters& parameters, Decid
                std::vector<double>& sizes, const Progress& progress) {
     constexpr double kClose = 1.03, kCubes = 1.0 / 2.5;  // the cells go with the edge's power
     const double longest = 2.0 * std::numbers::pi / kFewestAround * decided.report.usual_radius;
-    double edge = decided.report.edge;
-    for (int round = 0; round < kMostFits; ++round) {
-        const double cells = expected_cells(surface, sizes, decided.radii);
-        if (round > 0) decided.report.cells = cells;
-        if (cells <= kClose * *parameters.cells || edge >= longest) return;
-        edge = std::min(longest, three_digits(edge * std::pow(cells / *parameters.cells, kCubes)));
-        decide_range(edge, decided.thin, parameters, decided.report);
+    RemeshReport& report = decided.report;
+    double cells = expected_cells(surface, sizes, decided.radii);
+    for (int fits = 0; fits < kMostFits; ++fits) {
+        if (cells <= kClose * *parameters.cells || report.edge >= longest) return;
+        const double fitting = report.edge * std::pow(cells / *parameters.cells, kCubes);
+        decide_range(std::min(longest, three_digits(fitting)), decided.thin, parameters, report);
         sizes = sizes_for(surface, decided, parameters, progress);
+        report.cells = cells = expected_cells(surface, sizes, decided.radii);
     }
-    decided.report.cells = expected_cells(surface, sizes, decided.radii);
 }
 
 /// Target edges of the vertices [mm].

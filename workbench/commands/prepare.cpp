@@ -153,18 +153,19 @@ void export_project(const ExportArguments& arguments, const Progress& progress) 
     const std::string variant =
         variant_of(arguments.project, arguments.variant, *session.snapshot()->history);
     const Scene scene = session.scene(variant, progress.part(0.0, 0.6));
+    const std::vector<LogEntry> log = session.log(variant);
     std::vector<EnteredVerdicts> verdicts =
         entered_verdicts(session.project(), arguments.signers, progress);
     if (!arguments.signers.empty()) verdicts = signed_or_rejecting(std::move(verdicts));
-    const Review review = review_of(session.project(), session.log(variant), verdicts);
+    const Review review = review_of(session.project(), log, verdicts);
     if (reviewers > 0) require_accepted(review, reviewers);
-    for (const LogEntry& entry : session.log(variant))
+    for (const LogEntry& entry : log)
         if (entry.status == EditStatus::Stale)
             remark("warning: edit " + std::to_string(entry.edit.edit.id) + " " +
                    printable(entry.edit.operation) +
                    " no longer applies and is not in the model: " + entry.reason);
     const ExportOptions options{
-        .flow = flow_in_vessel(flow.parameters(), session.log(variant)),
+        .flow = flow_in_vessel(flow.parameters(), log),
         .provenance = provenance(session, variant, review),
         .shown = shown_contents(arguments, session, variant, scene, progress.part(0.6, 0.7))};
     PendingFiles files;

@@ -280,8 +280,9 @@ PrepareSummary finished(Session& session, const Recipe& rest, const PrepareOptio
         prepared.warnings.push_back(std::move(kept));
     if (warning) prepared.warnings.push_back(*warning);
     prepared.scene = session.scene(options.purpose);
-    prepared.flow = flow_in_vessel(prepared.flow, session.log(options.purpose));
-    refuse_stale_edits(session.log(options.purpose));
+    const std::vector<LogEntry> log = session.log(options.purpose);
+    prepared.flow = flow_in_vessel(prepared.flow, log);
+    refuse_stale_edits(log);
     end_purpose(options.out / kProjectFile, options.purpose);
     fold_log(session);
     const std::string openings = openings_text(surface_of(prepared.scene));

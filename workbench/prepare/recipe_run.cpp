@@ -300,15 +300,16 @@ std::vector<Diagnostic> warnings_of(const LogEntry& entry) {
 void run_recipe(Session& session, const Recipe& recipe, const std::string& variant,
                 const Teller& tell, const Progress& progress, const RecipeWatch& watch) {
     RecipeRun run(session, variant, tell, watch);
-    bool loaded = false;
+    const auto loading = std::ranges::find_if_not(recipe, [](const RecipeEntry& entry) {
+        return entry.given.operation().recipe.loads.has_value();
+    });
+    const auto loaded = static_cast<std::size_t>(loading - recipe.begin());
     const double share = 1.0 / static_cast<double>(std::max<std::size_t>(recipe.size(), 1));
     for (std::size_t i = 0; i < recipe.size(); ++i) {
         const double from = share * static_cast<double>(i);
         const Progress part = progress.part(from, from + share);
         run.run_pending(step_of(recipe[i]), part);
-        if (!loaded && !recipe[i].given.operation().recipe.loads)
-            require_stated_vessel(std::span(recipe).subspan(i), session);
-        loaded = loaded || !recipe[i].given.operation().recipe.loads;
+        if (i == loaded) require_stated_vessel(std::span(recipe).subspan(i), session);
         if (!is_left_out(session, recipe[i], variant)) run.apply(recipe[i], part);
     }
 }
