@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Fits how large vessels are and where they lie, by which the unit of a file that states none is told.
 
-  scripts/fit_units.py [--out FILE] [--revision R]
+  scripts/fit_units.py [--out FILE]
 
 Prints the constants of geometry/formats/vessel_size.cpp: Gaussians of three kinds of vessels (thin, medium, wide) in the natural
 logarithms of typical radius, extent and mean edge [mm], and one of the distance from the origin; and what they would decide of
@@ -94,13 +94,14 @@ def verdict(case, stored, model):
     return "asked" if found[best] < CERTAIN else "right" if best == stored else "wrong"
 
 
-def tables(cases):
+def models_without(cases):
+    """By patient, the model that was fitted to all others."""
+    return {patient: fitted([case for case in cases if case["patient"] != patient])
+            for patient in {case["patient"] for case in cases}}
+
+
+def tables(cases, models):
     """What is decided of cases whose patient was left out."""
-    models = {}
-    for case in cases:
-        patient = case["patient"]
-        if patient not in models:
-            models[patient] = fitted([other for other in cases if other["patient"] != patient])
     rows = []
     for stored in MILLIMETRES:
         for kind in KINDS:
@@ -136,9 +137,8 @@ Vessels are thin to a typical radius of 1.9 mm, wide from 4.5 mm on. The surface
 {own}"""
 
 
-def written(page, cases, revision):
-    by_kind, own = tables(cases)
-    models = {c["patient"]: fitted([o for o in cases if o["patient"] != c["patient"]]) for c in cases}
+def written(page, cases, models, revision):
+    by_kind, own = tables(cases, models)
     asked = sum(verdict(c, "mm", models[c["patient"]]) == "asked" for c in cases)
     with open(page, "w") as file:
         file.write(PAGE.format(revision=revision, count=len(cases), patients=len(models), by_kind=by_kind, own=own,
@@ -160,9 +160,10 @@ def main():
     for mean, covariance in kinds:
         print("mean", [round(float(x), 2) for x in mean], "covariance", [[round(float(x), 2) for x in row] for row in covariance])
     print("distance from the origin: mean %.2f, deviation %.2f" % place)
-    print("\n".join(tables(cases)))
+    models = models_without(cases)
+    print("\n".join(tables(cases, models)))
     if options.out:
-        written(options.out, cases, page_rows.revision())
+        written(options.out, cases, models, page_rows.revision())
     return 0
 
 

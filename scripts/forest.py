@@ -95,6 +95,19 @@ def typical_radius(truth):
     return parts[-1][0]
 
 
+def judged(case, result, goal):
+    """What is right or wrong with a result: `right` and `failures`, and where it can be read openings and triangles."""
+    code, _, out, err = run([os.path.join(BUILD, "forest"), "judge", case, result, goal])
+    if code != 0:
+        return {"right": False, "failures": [{"what": "unreadable", "text": err.strip()}]}
+    verdict = json.loads(out)
+    return {key: verdict[key] for key in ("right", "failures", "openings", "triangles")}
+
+
+def failures_text(failures):
+    return "; ".join(f"{f['what']}: {f['text']}" for f in failures)
+
+
 def prepare_and_judge(seed, truth, goal, options):
     case = os.path.join(options.out, f"{seed:03d}")
     result = f"{case}-{goal}"
@@ -113,13 +126,9 @@ def prepare_and_judge(seed, truth, goal, options):
         refused = "failed" if row["expected"] else "right"
         row.update(verdict=refused if 1 <= code <= 3 else "crashed", error=failed_step(err))
     else:
-        judged, _, out, err = run([os.path.join(BUILD, "forest"), "judge", case, result, goal])
-        if judged != 0:
-            row.update(verdict="wrong", failures=[{"what": "unreadable", "text": err.strip()}])
-        else:
-            verdict = json.loads(out)
-            row.update(verdict="right" if verdict["right"] else "wrong", failures=verdict["failures"],
-                       openings=verdict["openings"], triangles=verdict["triangles"])
+        verdict = judged(case, result, goal)
+        right = verdict.pop("right")
+        row.update(verdict, verdict="right" if right else "wrong")
     if not options.keep:
         shutil.rmtree(result, ignore_errors=True)
     return row
@@ -137,7 +146,7 @@ def run_seed(seed, goals, options):
 # --- the tables --------------------------------------------------------------------------------------------------------
 def reason(row):
     if row["verdict"] == "wrong":
-        return "; ".join(f"{f['what']}: {f['text']}" for f in row["failures"])
+        return failures_text(row["failures"])
     return row["error"]
 
 

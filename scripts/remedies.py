@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Does what the program advises where it refuses an input, and judges what comes of it (docs/science/remedies.md).
+"""Does what the program advises where it refuses an input, and judges what comes of it.
 
   scripts/remedies.py [--from GROUP,...] [--only PART] [--goal cfd|rp] [--sample N] [--seeds A-B] [--out FOLDER]
                       [--jobs N] [--timeout S] [--table FILE]
@@ -33,7 +33,7 @@ import sys
 import acceptance
 import common
 import forest
-from common import BUILD, DATA, PROGRAM, ROOT, row_line
+from common import DATA, PROGRAM, ROOT, row_line
 
 IN_A_ROW = 3
 JUDGE = os.path.join(DATA, "ends", "judge_ends.py")
@@ -135,10 +135,7 @@ def words_of(command):
 def judged(case, folder):
     """Why a product is wrong; empty: it is right."""
     if case.group == "forest":
-        code, _, out, err = forest.run([os.path.join(BUILD, "forest"), "judge", case.truth, folder, case.goal])
-        if code != 0:
-            return "unreadable: " + err.strip()[-200:]
-        return "; ".join(f"{f['what']}: {f['text']}" for f in json.loads(out)["failures"])
+        return forest.failures_text(forest.judged(case.truth, folder, case.goal)["failures"])
     if case.truth:
         done = subprocess.run(["/usr/bin/python3", JUDGE, case.truth, folder, "--exit", "0"], capture_output=True, text=True)
         said = done.stdout.strip()
@@ -246,10 +243,11 @@ def main():
             say(row)
     with open(os.path.join(options.out, "results.json"), "w") as file:
         json.dump(rows, file, indent=1)
-    print("\n" + tables(rows))
+    text = tables(rows)
+    print("\n" + text)
     if options.table:
         with open(options.table, "w") as file:
-            file.write(tables(rows))
+            file.write(text)
     wrong = [row for row in rows if row["outcome"] == "wrong" and row["steps"][0]["code"] not in QUESTIONS]
     return 1 if wrong else 0
 
