@@ -55,6 +55,7 @@ void ExportChoices::draw_flow(PanelContext& c) {
     if (!form_) return;
     group_heading(c.ui, "Flow");
     space(c.ui, 0.5F);
+    draw_meaning(c);
     const auto set = [&](const std::string& parameter, const std::string& text) {
         form_->set(parameter, text);
     };
@@ -62,7 +63,6 @@ void ExportChoices::draw_flow(PanelContext& c) {
         draw_form_fields(c, *form_, {.prefix = "export.flow.", .set = set, .in_view = false});
     if (parameter != nullptr)
         tooltip(c.ui, readable(parameter->name) + ": " + parameter->help + ".");
-    draw_meaning(c);
 }
 
 void ExportChoices::draw_meaning(PanelContext& c) {
@@ -72,6 +72,7 @@ void ExportChoices::draw_meaning(PanelContext& c) {
     if (meant_ != now) meaning_ = meaning(*scene->surface);
     meant_ = now;
     wrapped(c.ui, meaning_, c.ui.theme.muted);
+    space(c.ui, 0.5F);
 }
 
 std::string ExportChoices::meaning(const Surface& surface) const {

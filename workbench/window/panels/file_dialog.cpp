@@ -376,7 +376,7 @@ bool FileDialog::may_export(const fs::path& file) {
 /// The chosen format is a solver's case.
 bool FileDialog::takes_flow() const {
     const ExportFormat* format = row_that_writes(export_formats(), name_);
-    return question_ == FileQuestion::Export && format != nullptr && !format->folder.empty();
+    return format != nullptr && !format->folder.empty();
 }
 
 void FileDialog::export_to(PanelContext& c, const fs::path& file) {
