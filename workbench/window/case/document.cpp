@@ -681,6 +681,13 @@ std::optional<Activity> Document::activity() const {
     return std::nullopt;
 }
 
+bool Document::is_editing() const {
+    return preparation_ || !strokes_.empty() ||
+           std::ranges::any_of(requests_, [](const Request& request) {
+               return request.label.kind == RequestKind::Edit;
+           });
+}
+
 void Document::cancel() {
     strokes_.cancel();
     opening_.cancel();

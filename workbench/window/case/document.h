@@ -213,6 +213,10 @@ public:
     /// The foreground request that runs or waits; none: idle.
     [[nodiscard]] std::optional<Activity> activity() const;
 
+    /// True while an edit or a stroke is being made, or the model is prepared: closing the case
+    /// would cancel it.
+    [[nodiscard]] bool is_editing() const;
+
     /// True if anything runs, also in the background.
     [[nodiscard]] bool busy() const {
         return is_opening() || !requests_.empty() || !strokes_.empty() || is_closing() ||
