@@ -233,3 +233,53 @@ SCENARIO("A device without memory leaves the window open", "[window][closing]") 
     open_and_wait(*shell, capped_tube_file());
     CHECK(shell->app().drawings() > drawings);
 }
+
+SCENARIO("Closing while an edit runs asks first", "[window][closing]") {
+    const auto shell = test_shell();
+    if (!shell) return;
+    open_and_wait(*shell, tube_file(120));
+    App& app = shell->app();
+    Document& document = app.place().document;
+    document.apply("smooth", {{"iterations", Value(std::int64_t{100000})}}, Step::Smoothing);
+    REQUIRE(document.is_editing());
+    shell->frame();
+    WHEN("the case is closed") {
+        REQUIRE(shell->click_item("tool.home"));
+        shell->frame();
+        CHECK(document.is_open());
+        REQUIRE(shell->has("leaving.stay"));
+        THEN("it can go on") {
+            REQUIRE(shell->click_item("leaving.stay"));
+            shell->frame();
+            CHECK_FALSE(shell->has("leaving.stay"));
+            CHECK(document.is_editing());
+            document.cancel();
+        }
+        THEN("it can be cancelled") {
+            REQUIRE(shell->click_item("leaving.leave"));
+            CHECK(shell->settle(60s));
+            CHECK_FALSE(document.is_open());
+        }
+        THEN("Escape lets it run") {
+            shell->press_key(keys::kEscape);
+            shell->frame();
+            CHECK_FALSE(shell->has("leaving.stay"));
+            CHECK(document.is_editing());
+            document.cancel();
+        }
+    }
+    WHEN("the window is closed") {
+        CHECK_FALSE(app.may_close());
+        shell->frame();
+        REQUIRE(shell->click_item("leaving.leave"));
+        CHECK(app.closes());
+        CHECK(app.may_close());
+    }
+    WHEN("the edit has ended") {
+        document.cancel();
+        REQUIRE(wait_until_idle(*shell));
+        CHECK(app.may_close());
+    }
+    document.cancel();
+    CHECK(wait_until_idle(*shell));
+}

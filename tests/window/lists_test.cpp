@@ -12,6 +12,7 @@
 #include "workbench/case/argument_texts.h"
 #include "workbench/operations/table.h"
 #include "workbench/report/log_json.h"
+#include "workbench/window/case/argument_words.h"
 #include "workbench/window/case/history_tree.h"
 #include "workbench/window/case/local_time.h"
 #include "workbench/window/case/message.h"
@@ -53,7 +54,7 @@ SCENARIO("The rail lists the steps with their edits and states", "[window][rail]
     CHECK(rail[1].state == StepState::Empty);
     REQUIRE(rail[4].edits.size() == 1);
     CHECK(rail[4].edits[0].operation == "smooth");
-    CHECK(rail[4].edits[0].arguments == "iterations=1");
+    CHECK(rail[4].edits[0].arguments == "iterations 1");
     WHEN("an earlier edit is left out") {
         const EditId repair = session.apply("repair", {}).edit.edit.id;
         session.remove_edit(repair);
@@ -90,6 +91,20 @@ SCENARIO("Long lists of arguments are counted", "[window][rail]") {
     CHECK(argument_summary(find_operation("clip-opening"), ends) == "open=(30 numbers)");
     const Arguments box = {{"box", Value(std::vector<double>{1, 2, 3, 4, 5, 6})}};
     CHECK(argument_summary(find_operation("crop"), box) == "box=1,2,3,4,5,6");
+}
+
+SCENARIO("Lists have the window's words for arguments, not the command line's", "[window][rail]") {
+    const auto words = [](const char* operation, const Arguments& arguments) {
+        return argument_words(find_operation(operation), arguments);
+    };
+    CHECK(words("smooth", {}).empty());
+    CHECK(words("smooth", {{"find_caps", Value(false)}, {"iterations", Value(std::int64_t{5})}}) ==
+          "iterations 5, find caps: no");
+    CHECK(words("remesh", {{"edge", 0.25}}) == "edge 0.25 mm");
+    CHECK(words("brush-inflate", {{"dabs", Records(std::vector<Arguments>(80))}}) == "80 dabs");
+    CHECK(words("clip-opening", {{"open", std::vector<double>(30, 1.5)}}) == "open: 10 places");
+    CHECK(words("crop", {{"box", Value(std::vector<double>{1, 2, 3, 4, 5, 6})}}) ==
+          "box 1, 2, 3, 4, 5, 6 mm");
 }
 
 SCENARIO("What an operation says of its result precedes what it changed", "[window][rail]") {
@@ -140,7 +155,7 @@ SCENARIO("The history is a tree whose branches keep their places", "[window][his
         tree.rows, [](const HistoryRow& row) { return row.title == "smooth"; });
     REQUIRE(other != tree.rows.end());
     CHECK_FALSE(other->on_path);
-    CHECK(other->arguments == "iterations=1");
+    CHECK(other->arguments == "iterations 1");
     CHECK(tree.can_undo);
     CHECK(tree.undo_title == "repair");
     CHECK_FALSE(tree.can_redo);

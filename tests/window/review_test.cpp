@@ -248,3 +248,28 @@ SCENARIO("What reviewers wrote is shown in one short line", "[window][review]") 
           "A. Kern\\x1b: unsure, soon");
     CHECK(remark_of(ReviewedEdit{}).empty());
 }
+
+SCENARIO("A rejected edit is known in every step, until it is changed", "[window][review]") {
+    const auto shell = reviewed_tube();
+    if (!shell) return;
+    import_roth(*shell);
+    REQUIRE(shell->click_item("rail.smoothing"));
+    REQUIRE(shell->settle(60s));
+    const ReviewFeature& feature = feature_of(*shell);
+    CHECK_FALSE(feature.is_shown());
+    REQUIRE(feature.rejected({2, 1}) != nullptr);
+    CHECK(remark_of(*feature.rejected({2, 1})) == "B. Roth: too smooth");
+    CHECK(feature.rejected({1, 1}) == nullptr);
+    Document& document = shell->app().place().document;
+    WHEN("it is changed there") {
+        document.change(2, {{"iterations", Value(std::int64_t{3})}});
+        REQUIRE(wait_until_idle(*shell));
+        REQUIRE(shell->settle(60s));
+        CHECK(feature.rejected({2, 2}) == nullptr);
+    }
+    WHEN("the case is closed") {
+        shell->app().place().close();
+        REQUIRE(shell->settle(60s));
+        CHECK(feature.rejected({2, 1}) == nullptr);
+    }
+}

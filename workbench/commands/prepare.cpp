@@ -1,5 +1,6 @@
 #include "workbench/prepare/prepare.h"
 
+#include <algorithm>
 #include <iostream>
 #include <utility>
 
@@ -17,6 +18,7 @@
 #include "workbench/commands/console/messages.h"
 #include "workbench/export/products.h"
 #include "workbench/operations/table.h"
+#include "workbench/prepare/acceptance_gate.h"
 #include "workbench/prepare/case_files.h"
 #include "workbench/prepare/end_settings.h"
 #include "workbench/prepare/prepared_purposes.h"
@@ -140,7 +142,7 @@ void export_project(const ExportArguments& arguments, const Progress& progress) 
     check_export_name(arguments.file);
     check_export_place(arguments.file);
     check_shown(arguments);
-    const std::size_t reviewers =
+    std::size_t reviewers =
         arguments.required.empty() ? 0 : required_reviewers(arguments.required, "--require");
     Session session = Session::open(arguments.project, {.find = find_operation});
     std::vector<std::string> settings = arguments.settings;
@@ -152,6 +154,7 @@ void export_project(const ExportArguments& arguments, const Progress& progress) 
     refuse_source(session, arguments.file);
     const std::string variant =
         variant_of(arguments.project, arguments.variant, *session.snapshot()->history);
+    reviewers = std::max(reviewers, kept_reviewers(arguments.project, variant, 0));
     const Scene scene = session.scene(variant, progress.part(0.0, 0.6));
     const std::vector<LogEntry> log = session.log(variant);
     std::vector<EnteredVerdicts> verdicts =

@@ -63,6 +63,11 @@ std::vector<Parameter> flow_parameters() {
              .maximum = 1024}};
 }
 
+const Operation& flow_table() {
+    static const Operation table{.name = "openfoam", .parameters = flow_parameters()};
+    return table;
+}
+
 namespace {
 
 /// "inlet_1:2.5,inlet_2:1.8"

@@ -10,6 +10,9 @@ namespace vesselbench {
 /// The documented parameters of an exported OpenFOAM case: density, viscosity, flow, profile ...
 [[nodiscard]] std::vector<Parameter> flow_parameters();
 
+/// They as a row like those of the operation table, "openfoam", to share its checks, texts, forms.
+[[nodiscard]] const Operation& flow_table();
+
 /// \param arguments checked against flow_parameters(); absent ones keep their default
 [[nodiscard]] CfdParameters flow_from(const Arguments& arguments);
 

@@ -1,5 +1,7 @@
 #include "workbench/export/products.h"
 
+#include <utility>
+
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/errors.h"
@@ -17,11 +19,6 @@ namespace vesselbench {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The flow as a row like those of the operation table, to share their checks and texts.
-Operation openfoam() {
-    return {.name = "openfoam", .parameters = flow_parameters()};
-}
 
 /// "." gets its name, and a last slash is left out.
 fs::path without_last_slash(const fs::path& file) {
@@ -45,17 +42,21 @@ const ExportFormat* format_of(const fs::path& file) {
 
 }  // namespace
 
+FlowSettings::FlowSettings(Arguments given) : given_(std::move(given)) {
+    static_cast<void>(parameters());  // a text in them may be wrong
+}
+
 FlowSettings::FlowSettings(const std::string& stored) {
     if (stored.empty()) return;
     try {
-        given_ = arguments_from_json(openfoam(), json_from_text(stored, "the stored flow"));
+        given_ = arguments_from_json(flow_table(), json_from_text(stored, "the stored flow"));
     } catch (const UsageError& error) {
         throw InvalidInput(std::string("the flow stored in the project: ") + error.what());
     }
 }
 
 void FlowSettings::take(std::vector<std::string>& texts) {
-    const Operation table = openfoam();
+    const Operation& table = flow_table();
     const std::string prefix = table.name + ".";
     std::vector<std::string> own;
     for (const std::string& text : texts)
@@ -67,11 +68,11 @@ void FlowSettings::take(std::vector<std::string>& texts) {
 }
 
 CfdParameters FlowSettings::parameters() const {
-    return flow_from(checked_arguments(openfoam(), given_));
+    return flow_from(checked_arguments(flow_table(), given_));
 }
 
 std::string FlowSettings::text() const {
-    return argument_summary(openfoam(), given_);
+    return argument_summary(flow_table(), given_);
 }
 
 std::string FlowSettings::stored() const {

@@ -20,6 +20,11 @@ public:
     /// \throw InvalidInput if it is damaged
     explicit FlowSettings(const std::string& stored);
 
+    /// \throw UsageError as checked_arguments
+    explicit FlowSettings(Arguments given);
+
+    [[nodiscard]] const Arguments& given() const { return given_; }
+
     /// Takes the "openfoam.parameter=value" texts out of a list; they replace what was given
     /// before. \throw UsageError as checked_arguments
     void take(std::vector<std::string>& texts);

@@ -17,6 +17,7 @@
 #include "workbench/window/panels/bottom_panel.h"
 #include "workbench/window/panels/file_dialog.h"
 #include "workbench/window/panels/help_overlay.h"
+#include "workbench/window/panels/leaving_dialog.h"
 #include "workbench/window/panels/operation_panel.h"
 #include "workbench/window/panels/prepare_dialog.h"
 #include "workbench/window/panels/rail_panel.h"
@@ -123,6 +124,7 @@ void App::Impl::take_case() {
     if (std::exchange(seen_opened, place.document.opened()) == place.document.opened()) return;
     shown.prepare = false;
     shown.note.reset();
+    shown.leaving = Leaving::Nothing;
     shown.enlarged = Enlarged::None;
 }
 
@@ -193,16 +195,29 @@ void App::draw() {
         draw_prepare_dialog(context, layout.window);
     if (app.shown.note && app.place.document.is_open()) draw_note_dialog(context, layout.window);
     if (app.shown.help) draw_help_overlay(context, layout.window);
+    draw_leaving_dialog(context, layout.window);
 }
 
 void App::recover(const std::string& error) {
     Impl& app = *impl_;
     app.shown.prepare = app.shown.help = false;
     app.shown.note.reset();
+    app.shown.leaving = Leaving::Nothing;
     app.place.ask(FileQuestion::None);
     app.place.leave_form();
     if (std::exchange(app.recovered_from, error) != error)
         app.place.document.tell(make_message(MessageKind::Error, "the window failed: " + error));
+}
+
+bool App::may_close() {
+    Impl& app = *impl_;
+    if (!app.place.document.is_editing()) app.shown.closes = true;
+    if (!app.shown.closes) app.shown.leaving = Leaving::Window;
+    return app.shown.closes;
+}
+
+bool App::closes() const {
+    return impl_->shown.closes;
 }
 
 bool App::is_moving() const {

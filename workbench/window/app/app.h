@@ -51,6 +51,13 @@ public:
     /// those that wait for them.
     void rest();
 
+    /// The user wants to close the window. \return false if an edit runs: then the next frames ask
+    /// whether to cancel it
+    [[nodiscard]] bool may_close();
+
+    /// True once the user has agreed to that.
+    [[nodiscard]] bool closes() const;
+
     /// True if the next frame would look different without any input: something has ended, or
     /// progress is shown.
     [[nodiscard]] bool is_moving() const;

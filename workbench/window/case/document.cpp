@@ -19,8 +19,11 @@
 #include "workbench/case/purposes.h"
 #include "workbench/export/export_formats.h"
 #include "workbench/export/products.h"
+#include "workbench/prepare/acceptance_gate.h"
 #include "workbench/prepare/prepared_purposes.h"
+#include "workbench/prepare/vessel_question.h"
 #include "workbench/review/provenance.h"
+#include "workbench/review/review.h"
 #include "workbench/session/export_record.h"
 #include "workbench/session/stored_texts.h"
 #include "workbench/window/case/rail.h"
@@ -416,7 +419,8 @@ void Document::set_note(EditRef edit, const std::string& note) {
     watch(std::move(task), history_label("Writing a note"), [](const Nothing&) {});
 }
 
-void Document::export_to(const std::filesystem::path& file) {
+void Document::export_to(const std::filesystem::path& file,
+                         const std::optional<FlowSettings>& given) {
     if (!begin_request(RequestKind::Output)) return;
     try {
         check_export_name(file);
@@ -425,19 +429,25 @@ void Document::export_to(const std::filesystem::path& file) {
     }
     const ExportFormat* format = row_that_writes(export_formats(), file.string());
     const std::string unit = format == nullptr ? "" : ", in " + format->unit;
-    const auto write = [file, project = project_, variant = variant_](Session& session,
-                                                                      const Progress& progress) {
+    const auto write = [file, given, project = project_, variant = variant_](
+                           Session& session, const Progress& progress) {
         require_no_source(session, file);
+        const Review review = review_of(session, variant);
+        const std::size_t reviewers = kept_reviewers(project, variant, 0);
+        if (reviewers > 0) require_accepted(review, reviewers);
         const Scene scene = session.scene(variant, progress.part(0.0, 0.7));
         PendingFiles files;
-        const FlowSettings flow(stored_text(project, StoredText::Flow));
+        const FlowSettings kept(stored_text(project, StoredText::Flow));
+        const FlowSettings& flow = given ? *given : kept;
         export_scene(files, file, scene,
-                     {.flow = flow.parameters(),
-                      .provenance = provenance(session, variant, review_of(session, variant)),
+                     {.flow = flow_in_vessel(flow.parameters(), session.log(variant)),
+                      .provenance = provenance(session, variant, review),
                       .shown = {.title = shown_name(session), .purpose = model_title(variant)}},
                      progress.part(0.7, 1.0));
         progress.check_cancelled();
         files.commit();
+        if (given && given->stored() != kept.stored() && session.read_only_reason().empty())
+            store_text(project, StoredText::Flow, given->stored());
         record_export(session, file, variant);
         return Nothing{};
     };
@@ -669,6 +679,13 @@ std::optional<Activity> Document::activity() const {
     if (const LiveStroke* stroke = strokes_.entering())
         return Activity{stroke->operation(), stroke->progress().fraction};
     return std::nullopt;
+}
+
+bool Document::is_editing() const {
+    return preparation_ || !strokes_.empty() ||
+           std::ranges::any_of(requests_, [](const Request& request) {
+               return request.label.kind == RequestKind::Edit;
+           });
 }
 
 void Document::cancel() {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "geometry/kernel/deviation_map.h"
+#include "workbench/export/products.h"
 #include "workbench/session/session_runner.h"
 #include "workbench/window/case/message.h"
 #include "workbench/window/case/opening.h"
@@ -173,7 +174,8 @@ public:
     /// Replaces the note on a revision of an edit, also of another state; empty: none.
     void set_note(EditRef edit, const std::string& note);
 
-    void export_to(const std::filesystem::path& file);
+    /// \param flow of a solver's case, which the project keeps; none: the one that it kept
+    void export_to(const std::filesystem::path& file, const std::optional<FlowSettings>& flow = {});
     void save_copy(const std::filesystem::path& project);
 
     /// Writes a text of the window's, which must not replace a source of the project.
@@ -210,6 +212,10 @@ public:
 
     /// The foreground request that runs or waits; none: idle.
     [[nodiscard]] std::optional<Activity> activity() const;
+
+    /// True while an edit or a stroke is being made, or the model is prepared: closing the case
+    /// would cancel it.
+    [[nodiscard]] bool is_editing() const;
 
     /// True if anything runs, also in the background.
     [[nodiscard]] bool busy() const {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 
-#include "workbench/case/argument_texts.h"
 #include "workbench/case/diagnostic_words.h"
 #include "workbench/operations/table.h"
 #include "workbench/report/log_json.h"
+#include "workbench/window/case/argument_words.h"
 #include "workbench/window/case/edit_places.h"
 #include "workbench/window/case/message.h"
 #include "workbench/window/case/stroke_request.h"
@@ -57,7 +57,7 @@ bool is_stroke(const RailEdit& edit) {
 std::string arguments_text(const EditRecord& edit) {
     const Operation* operation = known_operation(edit.operation);
     return operation == nullptr ? "an operation of another version"
-                                : argument_summary(*operation, edit.given);
+                                : argument_words(*operation, edit.given);
 }
 
 std::string title_of(Step step) {

@@ -14,7 +14,7 @@ struct RailEdit {
     EditId id = 0;
     int revision = 1;
     std::string operation;
-    std::string arguments;  ///< "lambda=0.3 iterations=5"
+    std::string arguments;  ///< as argument_words()
     EditStatus status = EditStatus::Done;
     std::string reason;  ///< of a stale edit
     std::string change;  ///< "volume -2.1 %, moved up to 0.31 mm"

@@ -2,12 +2,16 @@
 
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 namespace vesselbench {
 
 std::string readable_unit(const std::string& unit) {
     if (unit == "-") return "";
     std::string words = unit;
+    for (const auto& [typed, raised] : {std::pair{"^2", "\u00B2"}, std::pair{"^3", "\u00B3"}})
+        if (const auto at = words.find(typed); at != std::string::npos)
+            words.replace(at, 2, raised);
     if (words.ends_with("m2")) words.replace(words.size() - 1, 1, "\u00B2");
     if (words.ends_with("m3")) words.replace(words.size() - 1, 1, "\u00B3");
     return words;

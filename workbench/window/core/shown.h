@@ -25,6 +25,9 @@ struct NoteInProgress {
     std::string words;
 };
 
+/// What the user asks to leave while an edit runs.
+enum class Leaving { Nothing, Case, Window };
+
 /// Which parts of the window are shown.
 struct Shown {
     BottomTab bottom = BottomTab::History;
@@ -38,6 +41,8 @@ struct Shown {
     std::optional<Step> again_from;         ///< of its own steps, to be made again; none: missing
     std::optional<std::size_t> entry;       ///< of the recipe, whose values are seen
     std::optional<NoteInProgress> note;     ///< the dialog for it
+    Leaving leaving = Leaving::Nothing;     ///< asked, and not answered
+    bool closes = false;                    ///< the window may be closed, whatever runs
     std::set<EditId> unfolded;              ///< first edits of strokes that the rail lists singly
     bool view = false;                      ///< the view's options
     PictureLook picture;                    ///< of those that are saved

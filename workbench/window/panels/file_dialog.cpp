@@ -1,6 +1,7 @@
 #include "workbench/window/panels/file_dialog.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <imgui.h>
 
@@ -179,7 +180,9 @@ void FileDialog::begin(PanelContext& c) {
     enter(!near.empty() ? near : !listing_.folder.empty() ? listing_.folder : documents_folder());
     name_.clear();
     replaced_.clear();
+    doubted_.clear();
     clicked_.clear();
+    if (question_ == FileQuestion::Export) export_.begin(c);
     if (writes())
         name_ = free_file(listing_.folder / (project.stem().string() +
                                              ending_for(question_, has_volume(c.place.document))))
@@ -297,11 +300,22 @@ void FileDialog::draw_entry(PanelContext& c, const FolderEntry& entry) {
     handle_click(c, entry, clicked);
 }
 
-/// Another suffix for the name.
+/// The formats, and the flow of a solver's case below them.
 void FileDialog::draw_formats(PanelContext& c) {
+    const bool flow = takes_flow();
+    ImGui::BeginChild("formats", {0, flow ? ImGui::GetContentRegionAvail().y * 0.35F : 0});
+    draw_format_list(c);
+    ImGui::EndChild();
+    if (!flow) return;
+    ImGui::BeginChild("flow");
+    export_.draw_flow(c);
+    ImGui::EndChild();
+}
+
+/// Another suffix for the name.
+void FileDialog::draw_format_list(PanelContext& c) {
     group_heading(c.ui, "Format");
     space(c.ui, 0.5F);
-    ImGui::BeginChild("formats");
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, c.ui.grid(0.25F)});
     const std::string suffix = fs::path(name_).extension().string();
     const bool can_have = can_have_volume(c.place.document);
@@ -318,7 +332,6 @@ void FileDialog::draw_formats(PanelContext& c) {
             name_ = fs::path(name_).stem().string() + own;
     }
     ImGui::PopStyleVar();
-    ImGui::EndChild();
 }
 
 bool FileDialog::can_finish() const {
@@ -347,6 +360,31 @@ bool FileDialog::may_write(const fs::path& file) {
     return false;
 }
 
+/// A model that reviewers have not accepted may be exported, by asking for it twice.
+bool FileDialog::may_export(const fs::path& file) {
+    const std::string refusal = export_.refusal(), doubt = export_.doubt();
+    if (!refusal.empty()) {
+        error_ = refusal;
+        return false;
+    }
+    if (doubt.empty() || doubted_ == file) return true;
+    error_ = doubt + "; press Export again to export it as it is";
+    doubted_ = file;
+    return false;
+}
+
+/// The chosen format is a solver's case.
+bool FileDialog::takes_flow() const {
+    const ExportFormat* format = row_that_writes(export_formats(), name_);
+    return format != nullptr && !format->folder.empty();
+}
+
+void FileDialog::export_to(PanelContext& c, const fs::path& file) {
+    const auto flow = takes_flow() ? export_.flow() : std::nullopt;
+    c.place.ask(FileQuestion::None);
+    c.place.document.export_to(file, flow);
+}
+
 void FileDialog::finish(PanelContext& c) {
     if (!can_finish()) return;
     if (!lower_case(name_).ends_with(needed_suffix(question_))) name_ += needed_suffix(question_);
@@ -359,10 +397,12 @@ void FileDialog::finish(PanelContext& c) {
         return;
     }
     if (writes() && !may_write(file)) return;
+    if (question_ == FileQuestion::Export && !may_export(file)) return;
     std::vector<fs::path> files = {file};
     for (const std::string& name : others_) files.push_back(listing_.folder / name);
     std::ranges::sort(files);
-    question_ = FileQuestion::None;
+    if (std::exchange(question_, FileQuestion::None) == FileQuestion::Export)
+        return export_to(c, file);
     c.place.answer(files);
 }
 
@@ -400,6 +440,7 @@ void FileDialog::draw(PanelContext& c, const ScreenRect& window) {
     }
     if (question_ != c.place.question()) begin(c);
     take_listing();
+    static_cast<void>(export_.poll());
     const Ui& ui = c.ui;
     begin_dialog(ui, "file dialog", window, ui.em * 56, ui.em * 36);
     heading(ui, title_of(question_));
@@ -410,6 +451,7 @@ void FileDialog::draw(PanelContext& c, const ScreenRect& window) {
                 ui.theme.muted);
     if (takes_several(question_))
         wrapped(ui, "Ctrl+click chooses several files; each is entered by itself.", ui.theme.muted);
+    if (question_ == FileQuestion::Export) export_.draw_review(c);
     space(ui, 1);
     draw_folder_line(c);
     const float line = ImGui::GetFrameHeight();

@@ -8,6 +8,7 @@
 
 #include "workbench/session/task.h"
 #include "workbench/window/core/panel_context.h"
+#include "workbench/window/panels/export_choices.h"
 #include "workbench/window/panels/folder_listing.h"
 #include "workbench/window/widgets/ui.h"
 #include "workbench/window/workplace/workplace.h"
@@ -24,7 +25,7 @@ public:
     void draw(PanelContext& context, const ScreenRect& window);
 
     /// True while a folder is being read.
-    [[nodiscard]] bool pending() const { return reading_.pending(); }
+    [[nodiscard]] bool pending() const { return reading_.pending() || export_.pending(); }
 
 private:
     void begin(PanelContext& context);
@@ -38,6 +39,7 @@ private:
     void draw_entry(PanelContext& context, const FolderEntry& entry);
     void handle_click(PanelContext& context, const FolderEntry& entry, bool clicked);
     void draw_formats(PanelContext& context);
+    void draw_format_list(PanelContext& context);
     void draw_name_line(PanelContext& context);
     void choose(PanelContext& context, const FolderEntry& entry, bool twice);
     void add_or_remove(const std::string& name);
@@ -48,6 +50,9 @@ private:
     [[nodiscard]] bool can_finish() const;
     [[nodiscard]] std::string short_name() const;
     [[nodiscard]] bool may_write(const std::filesystem::path& file);
+    [[nodiscard]] bool may_export(const std::filesystem::path& file);
+    [[nodiscard]] bool takes_flow() const;
+    void export_to(PanelContext& context, const std::filesystem::path& file);
 
     FileQuestion question_ = FileQuestion::None;
     FolderListing listing_;  ///< without entries while they are read
@@ -59,6 +64,8 @@ private:
     std::string error_;
     std::filesystem::path clicked_;   ///< the last entry that was clicked
     std::filesystem::path replaced_;  ///< a file that the user was warned about
+    std::filesystem::path doubted_;   ///< an export whose review the user was warned about
+    ExportChoices export_;
 };
 
 }  // namespace vesselbench

@@ -5,8 +5,8 @@
 
 #include <imgui.h>
 
-#include "workbench/case/argument_texts.h"
 #include "workbench/case/purposes.h"
+#include "workbench/window/case/argument_words.h"
 #include "workbench/window/case/rail.h"
 #include "workbench/window/case/readable.h"
 #include "workbench/window/core/shown.h"
@@ -82,7 +82,7 @@ void draw_entry(PanelContext& c, std::size_t entry) {
     if (row(c.ui, "prepare.entry." + number,
             {.icon = open ? icons::kDown : icons::kRight,
              .title = number + ".  " + readable(form.operation().name),
-             .detail = form.valid() ? argument_summary(form.operation(), form.arguments()) : "",
+             .detail = form.valid() ? argument_words(form.operation(), form.arguments()) : "",
              .right = c.place.recipe.is_changed(entry) ? "changed" : "",
              .help = open ? "Hide the values" : "Change the values of this edit"}))
         c.shown.entry = open ? std::nullopt : std::optional(entry);

@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <set>
+#include <span>
+#include <string_view>
 
 #include <imgui.h>
 
 #include "workbench/window/case/readable.h"
 #include "workbench/window/core/shown.h"
+#include "workbench/window/features/review/review_feature.h"
+#include "workbench/window/features/review/review_words.h"
 #include "workbench/window/style/icons.h"
 #include "workbench/window/widgets/controls.h"
 #include "workbench/window/widgets/panel_frame.h"
@@ -40,10 +44,23 @@ StateLook look_of(const Theme& theme, StepState state) {
     return {"", theme.muted, ""};
 }
 
+/// The edit as a reviewer rejects it; null: nobody does.
+const ReviewedEdit* find_rejected(const PanelContext& c, const RailEdit& edit) {
+    return c.place.get<ReviewFeature>().rejected({edit.id, edit.revision});
+}
+
+/// That a reviewer rejects an edit hides that it is done, and nothing worse.
+StateLook look_of(const PanelContext& c, StepState state, std::span<const RailEdit> edits) {
+    const bool done = state == StepState::Done || state == StepState::Warnings;
+    const auto rejected = [&](const RailEdit& edit) { return find_rejected(c, edit) != nullptr; };
+    if (done && std::ranges::any_of(edits, rejected))
+        return {icons::kError, c.ui.theme.danger, "rejected by a reviewer"};
+    return look_of(c.ui.theme, state);
+}
+
 /// The step's number in a circle, or the icon of its state.
-void draw_badge(const Ui& ui, const RailStep& step, ImVec2 middle) {
+void draw_badge(const Ui& ui, const RailStep& step, const StateLook& look, ImVec2 middle) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    const StateLook look = look_of(ui.theme, step.state);
     const std::string sign =
         *look.icon == '\0' ? std::to_string(static_cast<int>(step.step)) : std::string(look.icon);
     if (*look.icon == '\0')
@@ -54,22 +71,30 @@ void draw_badge(const Ui& ui, const RailStep& step, ImVec2 middle) {
                  sign.c_str());
 }
 
+/// The state of the review, or the number of edits.
+std::string right_of(const PanelContext& c, const RailStep& step) {
+    const auto& review = c.place.get<ReviewFeature>().review();
+    if (step.step == Step::Review && review && review->files > 0)
+        return to_string(status_of(*review));
+    return step.edits.empty() ? "" : std::to_string(step.edits.size());
+}
+
 void draw_step(PanelContext& c, const RailStep& step) {
     const Ui& ui = c.ui;
     const bool selected =
         c.place.step() == step.step && !(c.place.form() && c.place.form()->edit());
-    const std::string count = step.edits.empty() ? "" : std::to_string(step.edits.size());
+    const StateLook look = look_of(c, step.state, step.edits);
     if (row(c.ui, "rail." + to_string(step.step),
             {.title = step.title,
-             .right = count,
+             .right = right_of(c, step),
              .selected = selected,
              .strong = !step.edits.empty(),
              .enabled = c.place.document.is_open(),
              .indent = ui.em * 1.9F,
-             .help = step.purpose + "\n" + look_of(ui.theme, step.state).words}))
+             .help = step.purpose + "\n" + look.words}))
         c.place.choose_step(step.step);
     const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
-    draw_badge(ui, step, {from.x + ui.em * 1.2F, (from.y + to.y) / 2});
+    draw_badge(ui, step, look, {from.x + ui.em * 1.2F, (from.y + to.y) / 2});
 }
 
 std::string help_of(const RailEdit& edit) {
@@ -81,21 +106,23 @@ std::string help_of(const RailEdit& edit) {
 }
 
 /// The second line of an edit.
-const std::string& detail_of(const RailEdit& edit) {
+std::string detail_of(const PanelContext& c, const RailEdit& edit) {
     if (!edit.reason.empty()) return edit.reason;
+    if (const ReviewedEdit* rejected = find_rejected(c, edit)) return remark_of(*rejected);
     return edit.change.empty() ? edit.arguments : edit.change;
 }
 
 void draw_edit(PanelContext& c, const RailEdit& edit) {
-    const std::string& detail = detail_of(edit);
+    const std::string detail = detail_of(c, edit);
     const float height = row_height(c.ui, !detail.empty());
     if (!ImGui::IsRectVisible({ImGui::GetWindowWidth(), height})) return ImGui::Dummy({1, height});
     const auto& form = c.place.form();
     const StepState state = state_of(edit);
-    const StateLook look = look_of(c.ui.theme, state);
+    const bool rejected = find_rejected(c, edit) != nullptr;
+    const StateLook look = look_of(c, state, {&edit, 1});
     const std::string name = "rail.edit." + std::to_string(edit.id);
     if (row(c.ui, name,
-            {.icon = state == StepState::Done ? "" : look.icon,
+            {.icon = state == StepState::Done && !rejected ? "" : look.icon,
              .icon_colour = look.colour,
              .title = readable(edit.operation),
              .detail = detail,
@@ -123,11 +150,13 @@ bool draw_strokes(PanelContext& c, const RailStep& step, const RailRow& strokes)
     std::set<EditId>& unfolded = c.shown.unfolded;
     const bool open = unfolded.contains(first.id);
     const StepState state = state_of(step, strokes);
-    const StateLook look = look_of(c.ui.theme, state);
+    const StateLook look =
+        look_of(c, state, std::span(step.edits).subspan(strokes.first, strokes.count));
+    const bool plain = look.icon == std::string_view(icons::kDone);
     const char* fold = open ? icons::kDown : icons::kRight;
     if (row(c.ui, "rail.strokes." + std::to_string(first.id),
-            {.icon = state == StepState::Done ? fold : look.icon,
-             .icon_colour = state == StepState::Done ? c.ui.theme.muted : look.colour,
+            {.icon = plain ? fold : look.icon,
+             .icon_colour = plain ? c.ui.theme.muted : look.colour,
              .title = readable(first.operation),
              .right = std::to_string(strokes.count) + " strokes",
              .selected = !open && is_lit(c, step, strokes),

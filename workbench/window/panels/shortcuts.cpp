@@ -38,7 +38,7 @@ bool is_pressed(const KeyBinding& binding) {
 }
 
 bool has_dialog(const PanelContext& c) {
-    return c.shown.help || c.shown.prepare || c.shown.note ||
+    return c.shown.help || c.shown.prepare || c.shown.note || c.shown.leaving != Leaving::Nothing ||
            c.place.question() != FileQuestion::None;
 }
 
@@ -58,7 +58,9 @@ KeyCommands pressed_keys(const PanelContext& c) {
 }
 
 void handle_escape(PanelContext& c) {
-    if (c.shown.help || c.shown.prepare || c.shown.note) {
+    if (c.shown.leaving != Leaving::Nothing) {
+        c.shown.leaving = Leaving::Nothing;
+    } else if (c.shown.help || c.shown.prepare || c.shown.note) {
         c.shown.help = c.shown.prepare = false;
         c.shown.note.reset();
     } else if (c.place.question() != FileQuestion::None) {

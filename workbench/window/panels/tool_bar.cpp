@@ -7,6 +7,7 @@
 #include "geometry/kernel/wording.h"
 #include "workbench/case/purposes.h"
 #include "workbench/window/core/shown.h"
+#include "workbench/window/panels/leaving_dialog.h"
 #include "workbench/window/style/icons.h"
 #include "workbench/window/widgets/controls.h"
 #include "workbench/window/widgets/panel_frame.h"
@@ -22,7 +23,7 @@ void draw_files(PanelContext& c) {
     const bool open = place.document.is_open();
     if (icon_button(c.ui, "tool.home", icons::kHome, "Close the case and show the start screen",
                     open))
-        place.close();
+        leave(c, Leaving::Case);
     ImGui::SameLine();
     if (icon_button(c.ui, "tool.open", icons::kOpen,
                     "Open a project, a surface or an image  Ctrl+O"))

@@ -269,6 +269,12 @@ struct GlfwShell::Impl {
         glfwSwapBuffers(window.get());
     }
 
+    /// A window that the user closes stays open while the app asks.
+    void ask_before_closing() {
+        if (glfwWindowShouldClose(window.get()) == GLFW_TRUE && !app.may_close())
+            glfwSetWindowShouldClose(window.get(), GLFW_FALSE);
+    }
+
     void show_title() {
         if (std::string now = app.title(); now != title) {
             title = std::move(now);
@@ -299,8 +305,10 @@ bool GlfwShell::is_open() const {
 
 void GlfwShell::frame() {
     glfwPollEvents();
+    impl_->ask_before_closing();
     impl_->draw();
     impl_->show_title();
+    if (impl_->app.closes()) glfwSetWindowShouldClose(impl_->window.get(), GLFW_TRUE);
 }
 
 void GlfwShell::require_no_reports() const {
@@ -309,6 +317,7 @@ void GlfwShell::require_no_reports() const {
 
 void GlfwShell::wait() {
     impl_->events.wait();
+    impl_->ask_before_closing();
 }
 
 void run_window(AppOptions options, const std::filesystem::path& file,

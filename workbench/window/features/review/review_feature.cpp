@@ -272,7 +272,9 @@ void ReviewFeature::end_tools() {
 
 void ReviewFeature::read() {
     const Version now{core_.document.opened(), core_.document.snapshot_changes(), entered_};
-    if (!is_shown() || read_ == now) return;
+    // Beside its step, the rail marks what is rejected.
+    const bool wanted = is_shown() || !review_ || review_->files > 0;
+    if (!core_.document.is_open() || !wanted || read_ == now) return;
     read_ = now;
     reading_ = core_.document.runner()->submit(
         [variant = core_.document.variant()](Session& session, const Progress&) {
@@ -288,14 +290,26 @@ bool ReviewFeature::update() {
     end_tools();
     read();
     if (!reading_.poll()) return false;
-    review_ = reading_.newest();
+    take_review(reading_.newest());
     return true;
+}
+
+void ReviewFeature::take_review(std::shared_ptr<const Review> review) {
+    review_ = std::move(review);
+    rejected_.clear();
+    for (std::size_t i = 0; review_ && i < review_->edits.size(); ++i)
+        if (is_rejected(review_->edits[i])) rejected_[review_->edits[i].edit] = i;
+}
+
+const ReviewedEdit* ReviewFeature::rejected(const EditRef& edit) const {
+    const auto found = rejected_.find(edit);
+    return found == rejected_.end() ? nullptr : &review_->edits[found->second];
 }
 
 void ReviewFeature::case_closed() {
     blink_.stop();
     reading_ = {};
-    review_.reset();
+    take_review(nullptr);
     read_.reset();
     chosen_.reset();
     answer_.reset();

@@ -21,7 +21,8 @@ namespace vesselbench {
 /// Chosen in place of an edit to judge the whole model; no edit has it.
 inline constexpr EditId kWholeModel = 0;
 
-/// What reviewers say of the shown variant's edits: read while the review step is shown, exchanged
+/// What reviewers say of the shown variant's edits: read when a case is opened, and after each
+/// change once verdicts were entered or while the review step is shown; exchanged
 /// as files, and entered here. All of it runs on the case's thread.
 class ReviewFeature : public Feature {
 public:
@@ -29,6 +30,9 @@ public:
 
     /// As of the last reading; null: it is not known.
     [[nodiscard]] const std::shared_ptr<const Review>& review() const { return review_; }
+
+    /// An edit that somebody rejects; null: nobody does, or it is not known.
+    [[nodiscard]] const ReviewedEdit* rejected(const EditRef& edit) const;
 
     /// Why it could not be read; empty: it could.
     [[nodiscard]] const std::string& problem() const { return reading_.problem(); }
@@ -147,6 +151,7 @@ private:
         bool applied = false;
     };
 
+    void take_review(std::shared_ptr<const Review> review);
     [[nodiscard]] const LogEntry* answering_edit() const;
     void note_answer();
 
@@ -163,6 +168,7 @@ private:
     Core& core_;
     Task<Review> reading_;
     std::shared_ptr<const Review> review_;
+    std::map<EditRef, std::size_t> rejected_;  ///< of its edits
     std::optional<Version> read_;
     int entered_ = 0;  ///< counts changes of verdicts
     std::optional<EditId> chosen_;

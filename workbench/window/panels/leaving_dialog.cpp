@@ -1,0 +1,54 @@
+#include "workbench/window/panels/leaving_dialog.h"
+
+#include <utility>
+
+#include <imgui.h>
+
+#include "workbench/window/widgets/controls.h"
+#include "workbench/window/widgets/panel_frame.h"
+#include "workbench/window/workplace/workplace.h"
+
+namespace vesselbench {
+
+namespace {
+
+void leave_now(PanelContext& c) {
+    const Leaving what = std::exchange(c.shown.leaving, Leaving::Nothing);
+    if (what == Leaving::Window) c.shown.closes = true;
+    if (what == Leaving::Case) c.place.close();
+}
+
+void draw_buttons(PanelContext& c) {
+    const float width = c.ui.em * 11;
+    ImGui::SetCursorPosX(ImGui::GetWindowWidth() - c.ui.grid(2.5F) - 2 * width - c.ui.grid(1));
+    const bool stays =
+        button(c.ui, "leaving.stay", "Let it run", {.primary = true, .width = width});
+    ImGui::SameLine(0, c.ui.grid(1));
+    if (button(c.ui, "leaving.leave", "Cancel it and close", {.width = width})) return leave_now(c);
+    if (stays) c.shown.leaving = Leaving::Nothing;
+}
+
+}  // namespace
+
+void leave(PanelContext& c, Leaving what) {
+    c.shown.leaving = what;
+    if (!c.place.document.is_editing()) leave_now(c);
+}
+
+void draw_leaving_dialog(PanelContext& c, const ScreenRect& window) {
+    if (c.shown.leaving == Leaving::Nothing) return;
+    if (!c.place.document.is_editing()) return void(c.shown.leaving = Leaving::Nothing);
+    const Ui& ui = c.ui;
+    begin_dialog(ui, "leaving", window, ui.em * 32, ui.em * 12);
+    heading(ui, "An edit is running");
+    const auto activity = c.place.document.activity();
+    wrapped(ui,
+            (activity ? activity->what + ". " : "") +
+                "Closing cancels it; the edits that are made are kept.",
+            ui.theme.muted, false);
+    space(ui, 1);
+    draw_buttons(c);
+    end_frame();
+}
+
+}  // namespace vesselbench
