@@ -3,7 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "workbench/prepare/end_question.h"
+#include "geometry/kernel/vec3.h"
+#include "workbench/prepare/end_role.h"
 #include "workbench/session/snapshot.h"
 
 namespace vesselbench {

@@ -28,8 +28,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr std::array kRoles = {EndRole::Inlet, EndRole::Open, EndRole::Closed};
-
 /// Null: it is about something else.
 const DiagnosedFailure* doubt_in(const std::exception& error) {
     const auto* failure = dynamic_cast<const DiagnosedFailure*>(&error);
@@ -125,15 +123,6 @@ EndQuestion question_from(const Json& json) {
 }
 
 }  // namespace
-
-std::string to_string(EndRole role) {
-    return role == EndRole::Inlet ? "inlet" : role == EndRole::Open ? "open" : "closed";
-}
-
-std::optional<EndRole> end_role(const std::string& text) {
-    const auto role = std::ranges::find(kRoles, text, [](EndRole r) { return to_string(r); });
-    return role == kRoles.end() ? std::nullopt : std::optional(*role);
-}
 
 void write_end_question(Session& session, const Recipe& recipe, const PrepareOptions& options,
                         const std::exception& error, const Progress& progress) {
