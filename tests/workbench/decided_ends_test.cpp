@@ -8,7 +8,6 @@
 #include <vector>
 
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
 #include "geometry/formats/surface_file.h"
 #include "geometry/kernel/measure.h"
@@ -24,7 +23,6 @@
 
 using namespace vesselbench;
 using namespace vesselbench::test;
-using Json = nlohmann::ordered_json;
 using Lines = std::vector<std::string>;
 
 namespace {
@@ -41,11 +39,18 @@ std::string surface_of_phantom(const std::string& name, double edge) {
     return file;
 }
 
-/// The bundled vessel without its stubs.
-Session bundled_vessel() {
+/// The bundled vessel with its stubs.
+Session vessel_with_stubs() {
     static const std::string file = surface_of_phantom("aneurysm", 0.35);
-    Session session = Session::unsaved({.find = find_operation});
+    SessionOptions options{.find = find_operation};
+    options.worker.command = {program_path(), "--worker"};
+    Session session = Session::unsaved(options);
     session.apply("load-surface", {{"file", file}, {"units", std::string("mm")}});
+    return session;
+}
+
+Session bundled_vessel() {
+    Session session = vessel_with_stubs();
     session.apply("remove-branch", {{"tip", kLowStub}});
     session.apply("remove-branch", {{"tip", kHighStub}});
     return session;
@@ -53,14 +58,12 @@ Session bundled_vessel() {
 
 /// Runs a recipe of one entry that opens the ends. \return what was said
 Lines open_ends(Session& session, const std::string& variant, const Arguments& more = {}) {
-    Json arguments = {{"accept_doubts", true}};
-    for (const auto& [name, value] : to_json(more).items()) arguments[name] = value;
+    GivenArguments given(find_operation("clip-opening"));
+    given.set("accept_doubts", true);
+    for (const auto& [name, value] : more.values()) given.set(name, value);
     Lines lines;
-    apply_recipe(
-        session,
-        recipe_from_json(Json::array({{{"operation", "clip-opening"}, {"arguments", arguments}}}),
-                         {"surface", variant}),
-        variant, [&](const std::string& line) { lines.push_back(line); }, {});
+    apply_recipe(session, {{.given = given}}, variant,
+                 [&](const std::string& line) { lines.push_back(line); }, {});
     return lines;
 }
 
@@ -101,7 +104,7 @@ SCENARIO("A sac that was closed stays closed in the other variant", "[workbench]
     WHEN("a branch is removed, and a recipe opens the ends for another purpose") {
         const Lines said = open_ends(session, "rp");
         const LogEntry edit = last_of(session, "rp");
-        CAPTURE(said, to_json(edit.edit.given).dump());
+        CAPTURE(said);
         CHECK_FALSE(opening_at(session, "rp", kSac));
         CHECK(opening_at(session, "rp", kInlet));
         CHECK(opening_at(session, "rp", kOutletA));
@@ -162,6 +165,24 @@ SCENARIO("A print that leaves closed ends opens none that was decided to be open
         CHECK(std::ranges::none_of(decided,
                                    [](const DecidedEnd& end) { return end.variant == "rp"; }));
         CHECK(decided.size() >= 4);
+    }
+}
+
+SCENARIO("No end changes its side because another branch was removed", "[workbench][ends]") {
+    for (const Vec3& removed : {kOutletA, kOutletB, kLowStub, kHighStub}) {
+        Session session = vessel_with_stubs();
+        open_ends(session, "cfd");
+        const auto before = decided_ends(*session.snapshot());
+        REQUIRE(before.size() >= 6);
+        session.apply("remove-branch", {{"tip", removed}});
+        open_ends(session, "simulation");
+        CAPTURE(removed.transpose());
+        for (const DecidedEnd& end : before) {
+            CAPTURE(end.place.transpose());
+            if ((end.place - removed).norm() < 8.0) continue;
+            CHECK(opening_at(session, "simulation", end.place).has_value() ==
+                  (end.role != EndRole::Closed));
+        }
     }
 }
 

@@ -130,15 +130,6 @@ private:
         return nearest;
     }
 
-    [[nodiscard]] bool is_planned_inlet(const EndRecord& end) const {
-        return is_open(end) && (std::ranges::count(plan_.inlets, *end.opening) > 0 ||
-                                is_named_inlet(plan_.openings[*end.opening]));
-    }
-
-    static bool is_named_inlet(const PlannedOpening& opening) {
-        return opening.patch && opening.patch->kind == PatchKind::Inlet;
-    }
-
     /// The inlets are those of one edit, and named where the plan has others.
     void take_inlets() {
         const auto is_inlet = [](const DecidedEnd* end) {
@@ -151,7 +142,7 @@ private:
         bool same = !plan_.inlet_doubtful, all_known = true;
         for (std::size_t e = 0; e < found_.size(); ++e) {
             const bool inlet = is_inlet(found_[e]) && found_[e]->edit == *edit;
-            same = same && inlet == is_planned_inlet(plan_.ends[e]);
+            same = same && inlet == (planned_role(plan_, plan_.ends[e]) == EndRole::Inlet);
             all_known = all_known && (found_[e] != nullptr || !is_open(plan_.ends[e]));
         }
         // Where blood gathers, an end that nobody decided about is an inlet, too.
@@ -165,7 +156,7 @@ private:
         if (found_[e] == nullptr || end.fate == EndFate::Removed ||
             std::ranges::count(inlets_, end.place) > 0)
             return;
-        const bool doubtful = end.verdict && end.verdict->doubtful;
+        const bool doubtful = !leaves_closed_ && end.verdict && end.verdict->doubtful;
         if (found_[e]->role == EndRole::Closed) {
             if (is_open(end) || doubtful) use(e, closed_);
         } else if (!leaves_closed_ && (!is_open(end) || doubtful)) {

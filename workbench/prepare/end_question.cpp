@@ -51,14 +51,6 @@ std::set<int> numbers_in(const std::vector<Diagnostic>& diagnostics) {
     return numbers;
 }
 
-EndRole proposed_role(const OpeningPlan& plan, const EndRecord& end) {
-    if (!end.opening) return EndRole::Closed;
-    const auto& patch = plan.openings[*end.opening].patch;
-    const bool inlet = std::ranges::count(plan.inlets, *end.opening) > 0 ||
-                       (patch && patch->kind == PatchKind::Inlet);
-    return inlet ? EndRole::Inlet : EndRole::Open;
-}
-
 /// \param plan with its ends by their numbers
 Json question_json(const OpeningPlan& plan, const std::vector<Diagnostic>& doubts) {
     const std::set<int> in_doubt = numbers_in(doubts);
@@ -67,7 +59,7 @@ Json question_json(const OpeningPlan& plan, const std::vector<Diagnostic>& doubt
         const EndRecord& end = plan.ends[i];
         const bool doubtful = in_doubt.contains(end.number);
         const bool counts = doubtful || end.share() > kLeastShare;
-        const EndRole role = proposed_role(plan, end);
+        const EndRole role = planned_role(plan, end);
         ends[i]["proposal"] = to_string(role);
         ends[i]["in_doubt"] = doubtful;
         ends[i]["counts"] = counts;
