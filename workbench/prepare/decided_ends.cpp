@@ -81,13 +81,14 @@ public:
     [[nodiscard]] std::vector<RankedEnd> opened() const {
         std::vector<RankedEnd> ends;
         for (std::size_t i = 0; i < std::min(openings_.size(), patches_.size()); ++i)
-            ends.push_back(decided(openings_[i].place.tip, role_of(patches_[i]), true));
+            ends.push_back(decided(openings_[i].place.tip, 0.0, role_of(patches_[i]), true));
         return ends;
     }
 
 private:
-    [[nodiscard]] RankedEnd decided(const Vec3& place, EndRole role, bool named) const {
-        return {{place, role, edit_.edit, edit_.place.variant}, named};
+    [[nodiscard]] RankedEnd decided(const Vec3& place, double diameter, EndRole role,
+                                    bool named) const {
+        return {{place, diameter, role, edit_.edit, edit_.place.variant}, named};
     }
 
     static EndRole role_of(const Patch& patch) {
@@ -103,16 +104,17 @@ private:
     [[nodiscard]] std::optional<RankedEnd> reported_end(const Json& end) const {
         const Json &at = end.at("place_mm"), &opening = end.at("opening");
         const Vec3 place(at.at(0).get<double>(), at.at(1).get<double>(), at.at(2).get<double>());
-        const double reach = kNamedReach * end.at("diameter_mm").get<double>();
+        const auto diameter = end.at("diameter_mm").get<double>();
+        const double reach = kNamedReach * diameter;
         if (opening.is_string())
             return decided(
-                place, role_of(opening.get<std::string>()),
+                place, diameter, role_of(opening.get<std::string>()),
                 ran_.has("tip") || is_near(inlets_, place, reach) || is_near(open_, place, reach));
         if (end.at("number").is_null() || end.at("fate") != to_string(EndFate::Closed))
             return std::nullopt;
         const bool named = is_near(closed_, place, reach);
         if (leaves_closed_ && !named) return std::nullopt;
-        return decided(place, EndRole::Closed, named);
+        return decided(place, diameter, EndRole::Closed, named);
     }
 
     const EditRecord& edit_;

@@ -12,6 +12,7 @@ namespace vesselbench {
 /// What an edit decided about a vessel end.
 struct DecidedEnd {
     Vec3 place = Vec3::Zero();  ///< centre of its rim or cap, or its tip [mm]
+    double diameter = 0.0;      ///< of the vessel there [mm]; 0: not known
     EndRole role = EndRole::Closed;
     EditRef edit;
     std::string variant;  ///< of the edit; empty: the trunk

@@ -16,7 +16,8 @@ namespace vesselbench {
 
 namespace {
 
-/// An end that lies farther from where it was decided about ends another vessel [diameters].
+/// An end that lies farther from where it was decided about ends another vessel: by its diameter
+/// now or then, as a sac may have lost a part [diameters].
 constexpr double kSameEnd = 1.0;
 
 /// A parameter of places, with more of them.
@@ -110,15 +111,27 @@ public:
     }
 
 private:
-    /// Null: nothing was decided, or the entry itself names the end.
+    /// The nearest one of the edit that ranks first. Null: nothing was decided, or the entry itself
+    /// names the end.
     [[nodiscard]] const DecidedEnd* decision(const EndRecord& end,
                                              const std::vector<DecidedEnd>& decided) const {
         if (!is_judged(end) || end.wanted || (end.asked && !leaves_closed_)) return nullptr;
-        const auto found = std::ranges::find_if(decided, [&](const DecidedEnd& past) {
-            return (past.place - end.place).norm() <= kSameEnd * end.diameter &&
-                   &end == nearest_end(past.place);
-        });
-        return found == decided.end() ? nullptr : &*found;
+        const DecidedEnd* found = nullptr;
+        for (const DecidedEnd& past : decided)
+            if (is_about(past, end) &&
+                (found == nullptr ||
+                 (past.edit == found->edit && distance(past, end) < distance(*found, end))))
+                found = &past;
+        return found;
+    }
+
+    static double distance(const DecidedEnd& past, const EndRecord& end) {
+        return (past.place - end.place).norm();
+    }
+
+    [[nodiscard]] bool is_about(const DecidedEnd& past, const EndRecord& end) const {
+        return distance(past, end) <= kSameEnd * std::max(end.diameter, past.diameter) &&
+               &end == nearest_end(past.place);
     }
 
     [[nodiscard]] const EndRecord* nearest_end(const Vec3& place) const {
