@@ -15,7 +15,11 @@ namespace {
 
 constexpr int kSide = 900;        // pixels
 constexpr double kDigit = 18.0;   // pixels
+constexpr double kDot = 13.0;     // pixels
 constexpr double kMargin = 1.15;  // of the model's half height
+
+/// Of numbers: roles' colours are too light for thin strokes on white.
+constexpr PixelColour kInk = {25, 30, 35};
 
 /// Patient coordinates are LPS: +y is posterior, +z is superior.
 const std::array<Vec3, 2> kViews = {Vec3(0, 1, 0), Vec3(-1, 0, 0)};
@@ -43,8 +47,8 @@ void write_numbers(Picture& picture, const OpeningPlan& plan, const PictureOptio
         const Eigen::Vector2d at(0.5 * kSide + scale * p.dot(right),
                                  0.5 * kSide - scale * p.dot(up));
         const PixelColour colour = pixel_colour(role_colour(shown_role(plan, end)));
-        draw_stroke(picture, at, at, 9.0, colour);
-        write_text(picture, at.x() + 8.0, at.y() - 6.0, std::to_string(end.number), kDigit, colour);
+        draw_stroke(picture, at, at, kDot, colour);
+        write_text(picture, at.x() + 9.0, at.y() - 7.0, std::to_string(end.number), kDigit, kInk);
     }
 }
 
