@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 
 #include "geometry/formats/surface_file.h"
 #include "geometry/kernel/measure.h"
@@ -19,7 +20,9 @@
 #include "workbench/operations/table.h"
 #include "workbench/phantoms/phantom_json.h"
 #include "workbench/prepare/apply_recipe.h"
+#include "workbench/prepare/before_cuts.h"
 #include "workbench/prepare/input.h"
+#include "workbench/prepare/prepared_purposes.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;
@@ -140,6 +143,14 @@ SCENARIO("A chosen inlet stays the inlet", "[workbench][ends]") {
                                      {{"inlet", Value(std::vector<double>{4.4, -6.0, 53.0})}});
         CHECK(remarks_in(said).empty());
         CHECK(opening_at(session, "simulation", kOutletB) == PatchKind::Inlet);
+    }
+    WHEN("the ends are listed for a purpose that has not opened them") {
+        const std::string project = temporary_folder() + "/case.vbench";
+        session.save_as(project);
+        begin_purpose(project, "simulation");
+        const BeforeCuts before =
+            before_cuts({.input = project}, "simulation", {}, [](const std::string&) {}, {});
+        CHECK(names_place(before.cutting, "inlet", kOutletA, 4.0));
     }
     WHEN("its branch is removed") {
         session.apply("remove-branch", {{"tip", kOutletA}});
