@@ -11,6 +11,7 @@
 #include "gpu/render/drawn_surface.h"
 #include "gpu/render/renderer.h"
 #include "gpu/render/target.h"
+#include "gpu/role_colours.h"
 
 namespace vesselbench {
 
@@ -21,15 +22,13 @@ namespace {
 constexpr double kWirePull = 1e-2;
 
 Colour patch_colour(const Surface& surface, std::size_t label) {
-    static const Colour outlets[] = {
-        {0.10F, 0.28F, 0.62F}, {0.08F, 0.42F, 0.52F}, {0.28F, 0.20F, 0.58F}};
     switch (surface.patches[label].kind) {
         case PatchKind::Wall:
             return kWallColour;
         case PatchKind::Inlet:
-            return {0.15F, 0.55F, 0.12F};
+            return role_colour(ShownRole::Inlet);
         case PatchKind::Outlet:
-            return outlets[label % 3];
+            return role_colour(ShownRole::Outlet);
         case PatchKind::Cut:
             return {0.75F, 0.60F, 0.10F};
     }

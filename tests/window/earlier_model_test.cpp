@@ -310,6 +310,31 @@ SCENARIO("The other end of a filled model becomes the inlet", "[window][earlier]
             CHECK((opening.centroid - other->centroid).norm() < 0.1);
 }
 
+SCENARIO("A cap that becomes the inlet changes the edit that opened the ends",
+         "[window][earlier][openings]") {
+    Desk desk(y_file(), {{"clip-opening", {}}, {"extrude-opening", {}}});
+    const auto openings = measure_patches(desk.surface());
+    const auto second = std::ranges::find(openings, std::string("outlet_2"), &PatchMeasures::name);
+    REQUIRE(second != openings.end());
+    auto& feature = desk.place.get<OpeningsFeature>();
+    feature.click(*second);
+    REQUIRE(feature.role_question());
+    feature.give_role(PatchKind::Inlet);
+    CHECK_FALSE(desk.place.can_apply());  // its ends are not known yet
+    REQUIRE(desk.run_until([&] {
+        return !feature.pending() && desk.place.form() &&
+               !desk.place.form()->field("inlet").text.empty();
+    }));
+    CHECK(desk.place.form()->edit() == 2);
+    REQUIRE(desk.run_until([&] { return !feature.pending(); }));
+    desk.apply();
+    desk.run_pending();
+    CHECK(desk.document.snapshot()->log.size() == 3);
+    for (const PatchMeasures& opening : measure_patches(desk.surface()))
+        if (opening.kind == PatchKind::Inlet)
+            CHECK((opening.centroid - second->centroid).norm() < 0.5);
+}
+
 SCENARIO("A brush paints in the step that it was chosen in", "[window][earlier]") {
     Desk desk = filled_tube();
     desk.place.choose("brush-inflate", Step::LocalRepair);

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <set>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -15,6 +16,7 @@
 #include "geometry/kernel/measure.h"
 #include "geometry/phantoms/exact_surface.h"
 #include "geometry/phantoms/field.h"
+#include "gpu/picture.h"
 #include "tests/support/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
@@ -23,6 +25,8 @@
 #include "workbench/phantoms/phantom_json.h"
 #include "workbench/window/drawing/pixel_view.h"
 #include "workbench/window/features/handles/cut_handles.h"
+#include "workbench/window/features/openings/end_markers.h"
+#include "workbench/window/features/openings/opening_roles.h"
 #include "workbench/window/features/openings/openings_feature.h"
 #include "workbench/window/keys/keys.h"
 #include "workbench/window/workplace/workplace.h"
@@ -150,6 +154,54 @@ SCENARIO("The table has the ends and the numbers of vesselbench ends", "[window]
         CHECK(row.cut.has_value() == !opening.is_null());
     }
     CHECK(summary_of(window.ends().rows()) == "5 of 6 ends open, 1 in doubt");
+}
+
+SCENARIO("A role has one colour: of its cap, in the table and on its marker",
+         "[window][openings]") {
+    Openings window(aneurysm());
+    window.place.fill_form({{"accept_doubts", "true"}});
+    window.settle();
+    const std::vector<EndRow> rows = window.ends().rows();
+    const Surface made = window.apply();
+    const std::vector<Colour> caps = patch_colours(made);
+    for (const EndRow& row : rows) {
+        if (!row.is_open()) continue;
+        const PatchMeasures opening = opening_near(made, row.cut->place.plane.point);
+        const PixelColour cap = pixel_colour(caps[opening.row]);
+        CAPTURE(row.number);
+        CHECK(end_colour(dark_theme(), row) ==
+              paint(std::uint32_t{cap[0]} << 16U | std::uint32_t{cap[1]} << 8U | cap[2]));
+    }
+    THEN("a sac differs from another closed end, and both from openings") {
+        std::set<Paint> colours;
+        for (const EndWish wish : {EndWish::Inlet, EndWish::Outlet, EndWish::Closed})
+            colours.insert(end_colour(dark_theme(), {.wish = wish}));
+        colours.insert(end_colour(dark_theme(), {.wish = EndWish::Closed, .sac = true}));
+        CHECK(colours.size() == 4);
+        CHECK(rows.front().sac);
+    }
+}
+
+SCENARIO("Ends that the odds would decide otherwise stay what an edit made of them",
+         "[window][openings]") {
+    Openings window(aneurysm());
+    window.place.fill_form({{"accept_doubts", "true"}});
+    window.settle();
+    std::vector<EndRow> rows = window.ends().rows();
+    std::ranges::sort(rows, {}, &EndRow::number);
+    REQUIRE(rows[0].wish == EndWish::Closed);
+    REQUIRE(rows[2].wish == EndWish::Outlet);
+    static_cast<void>(window.apply());
+    const Snapshot& now = *window.place.document.snapshot();
+    const EditId edit = now.log.back().edit.edit.id;
+    for (EndRow& row : rows) row.doubtful = false;
+    CHECK(former_wishes(rows, now, edit).empty());
+    rows[0].wish = EndWish::Outlet;
+    rows[2].wish = EndWish::Closed;
+    const auto wishes = former_wishes(rows, now, edit);
+    CHECK(std::set(wishes.begin(), wishes.end()) ==
+          std::set<std::pair<int, EndWish>>{{1, EndWish::Closed}, {3, EndWish::Outlet}});
+    CHECK(former_wishes(rows, now, edit + 1).empty());
 }
 
 SCENARIO("A closed end that is toggled is opened", "[window][openings]") {

@@ -157,6 +157,26 @@ SCENARIO("The dialog offers what is missing, or a step to start again from", "[w
     CHECK(document.snapshot()->history->current() == state);
 }
 
+SCENARIO("The dialog opens at the purpose of the chosen variant", "[window][prepare]") {
+    const auto shell = test_shell();
+    if (!shell) return;
+    open_and_wait(*shell, case_folder().string());
+    Workplace& place = shell->app().place();
+    prepare(place.document, "cfd");
+    place.document.show_variant("rp");
+    REQUIRE(wait_until_idle(*shell));
+    REQUIRE(shell->click_item("tool.prepare"));
+    shell->frame();
+    REQUIRE_FALSE(place.recipe.forms().empty());
+    CHECK(place.recipe.forms().back().operation().name == "decimate");
+    REQUIRE(shell->click_item("prepare.cancel"));
+    place.document.show_variant("cfd");
+    REQUIRE(wait_until_idle(*shell));
+    REQUIRE(shell->click_item("tool.prepare"));
+    shell->frame();
+    CHECK(place.recipe.forms().empty());  // nothing is missing
+}
+
 SCENARIO("Values of a recipe are changed before it runs", "[window][prepare]") {
     const auto shell = test_shell();
     if (!shell) return;

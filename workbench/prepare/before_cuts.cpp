@@ -7,6 +7,7 @@
 #include "geometry/kernel/errors.h"
 #include "workbench/case/checked_arguments.h"
 #include "workbench/operations/table.h"
+#include "workbench/prepare/decided_entry.h"
 #include "workbench/prepare/prepared_purposes.h"
 #include "workbench/prepare/vessel_question.h"
 #include "workbench/session/session.h"
@@ -26,16 +27,22 @@ BeforeCuts of_project(const std::string& project, const Progress& progress) {
     const std::string variant = variant_of(project, "", *session.snapshot()->history);
     BeforeCuts before;
     EditId last = 0;
+    bool cut = false;
     for (const LogEntry& entry : session.log(variant)) {
-        if (find_operation(entry.edit.operation).recipe.cuts_ends) {
+        cut = find_operation(entry.edit.operation).recipe.cuts_ends;
+        if (cut) {
             before.cutting = entry.edit.given;
             break;
         }
         if (entry.edit.place.step > Step::Openings) break;
         last = entry.edit.edit.id;
     }
-    before.cutting = checked_arguments(cutting_operation(), before.cutting);
     if (last == 0) throw UsageError("the project has no surface before its openings");
+    if (!cut) {  // as a recipe would open them, by what other variants decided
+        const RecipeEntry entry{.given = GivenArguments(cutting_operation())};
+        before.cutting = decided_entry(entry, session, variant, progress.silent()).entry.given;
+    }
+    before.cutting = checked_arguments(cutting_operation(), before.cutting);
     before.scene = session.scene_after(last, progress);
     return before;
 }

@@ -4,6 +4,9 @@
 #include <array>
 
 #include "geometry/kernel/measure.h"
+#include "geometry/vessel/openings/end_texts.h"
+#include "gpu/role_colours.h"
+#include "workbench/prepare/end_role.h"
 #include "workbench/report/label_text.h"
 
 namespace vesselbench {
@@ -12,11 +15,26 @@ namespace {
 
 constexpr int kSide = 900;        // pixels
 constexpr double kDigit = 18.0;   // pixels
+constexpr double kDot = 13.0;     // pixels
 constexpr double kMargin = 1.15;  // of the model's half height
-const PixelColour kOpened = {20, 120, 40}, kClosed = {180, 30, 30};
+
+/// Of numbers: roles' colours are too light for thin strokes on white.
+constexpr PixelColour kInk = {25, 30, 35};
 
 /// Patient coordinates are LPS: +y is posterior, +z is superior.
 const std::array<Vec3, 2> kViews = {Vec3(0, 1, 0), Vec3(-1, 0, 0)};
+
+ShownRole shown_role(const OpeningPlan& plan, const EndRecord& end) {
+    switch (planned_role(plan, end)) {
+        case EndRole::Inlet:
+            return ShownRole::Inlet;
+        case EndRole::Open:
+            return ShownRole::Outlet;
+        case EndRole::Closed:
+            break;
+    }
+    return end.verdict && looks_like_sac(*end.verdict) ? ShownRole::Sac : ShownRole::Closed;
+}
 
 void write_numbers(Picture& picture, const OpeningPlan& plan, const PictureOptions& options,
                    const Vec3& centre) {
@@ -28,9 +46,9 @@ void write_numbers(Picture& picture, const OpeningPlan& plan, const PictureOptio
         const Vec3 p = end.place - centre;
         const Eigen::Vector2d at(0.5 * kSide + scale * p.dot(right),
                                  0.5 * kSide - scale * p.dot(up));
-        const PixelColour colour = end.opening ? kOpened : kClosed;
-        draw_stroke(picture, at, at, 9.0, colour);
-        write_text(picture, at.x() + 8.0, at.y() - 6.0, std::to_string(end.number), kDigit, colour);
+        const PixelColour colour = pixel_colour(role_colour(shown_role(plan, end)));
+        draw_stroke(picture, at, at, kDot, colour);
+        write_text(picture, at.x() + 9.0, at.y() - 7.0, std::to_string(end.number), kDigit, kInk);
     }
 }
 

@@ -6,7 +6,7 @@
 namespace vesselbench {
 
 /// The surface from the front and from the left, with the numbers of its vessel ends beside them:
-/// green for what is opened, red for what is not.
+/// in the colours of their roles (role_colour).
 /// \throw GpuUnavailable without usable OpenGL
 [[nodiscard]] Picture picture_of_ends(const Surface& surface, const OpeningPlan& plan);
 

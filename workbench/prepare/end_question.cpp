@@ -28,8 +28,6 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr std::array kRoles = {EndRole::Inlet, EndRole::Open, EndRole::Closed};
-
 /// Null: it is about something else.
 const DiagnosedFailure* doubt_in(const std::exception& error) {
     const auto* failure = dynamic_cast<const DiagnosedFailure*>(&error);
@@ -53,14 +51,6 @@ std::set<int> numbers_in(const std::vector<Diagnostic>& diagnostics) {
     return numbers;
 }
 
-EndRole proposed_role(const OpeningPlan& plan, const EndRecord& end) {
-    if (!end.opening) return EndRole::Closed;
-    const auto& patch = plan.openings[*end.opening].patch;
-    const bool inlet = std::ranges::count(plan.inlets, *end.opening) > 0 ||
-                       (patch && patch->kind == PatchKind::Inlet);
-    return inlet ? EndRole::Inlet : EndRole::Open;
-}
-
 /// \param plan with its ends by their numbers
 Json question_json(const OpeningPlan& plan, const std::vector<Diagnostic>& doubts) {
     const std::set<int> in_doubt = numbers_in(doubts);
@@ -69,7 +59,7 @@ Json question_json(const OpeningPlan& plan, const std::vector<Diagnostic>& doubt
         const EndRecord& end = plan.ends[i];
         const bool doubtful = in_doubt.contains(end.number);
         const bool counts = doubtful || end.share() > kLeastShare;
-        const EndRole role = proposed_role(plan, end);
+        const EndRole role = planned_role(plan, end);
         ends[i]["proposal"] = to_string(role);
         ends[i]["in_doubt"] = doubtful;
         ends[i]["counts"] = counts;
@@ -125,15 +115,6 @@ EndQuestion question_from(const Json& json) {
 }
 
 }  // namespace
-
-std::string to_string(EndRole role) {
-    return role == EndRole::Inlet ? "inlet" : role == EndRole::Open ? "open" : "closed";
-}
-
-std::optional<EndRole> end_role(const std::string& text) {
-    const auto role = std::ranges::find(kRoles, text, [](EndRole r) { return to_string(r); });
-    return role == kRoles.end() ? std::nullopt : std::optional(*role);
-}
 
 void write_end_question(Session& session, const Recipe& recipe, const PrepareOptions& options,
                         const std::exception& error, const Progress& progress) {

@@ -8,6 +8,7 @@
 
 #include "geometry/kernel/progress.h"
 #include "geometry/kernel/vec3.h"
+#include "workbench/prepare/end_role.h"
 #include "workbench/prepare/prepare_options.h"
 #include "workbench/prepare/recipe.h"
 #include "workbench/session/session.h"
@@ -21,14 +22,6 @@ inline constexpr const char* kEndInDoubt = "end-in-doubt";
 /// picture, which is missing without usable OpenGL.
 inline constexpr const char* kEndQuestion = "question.json";
 inline constexpr const char* kEndQuestionPicture = "question.png";
-
-/// What a vessel end is in the model.
-enum class EndRole { Inlet, Open, Closed };
-
-[[nodiscard]] std::string to_string(EndRole role);  ///< "inlet", "open", "closed"
-
-/// None: there is no such role.
-[[nodiscard]] std::optional<EndRole> end_role(const std::string& text);
 
 /// A vessel end that somebody may decide about.
 struct QuestionedEnd {

@@ -10,6 +10,7 @@
 #include "geometry/vessel/openings/vessel_check.h"
 #include "workbench/case/diagnostic_words.h"
 #include "workbench/operations/table.h"
+#include "workbench/prepare/decided_entry.h"
 #include "workbench/prepare/extraction_entry.h"
 #include "workbench/prepare/vessel_question.h"
 #include "workbench/report/log_json.h"
@@ -112,7 +113,9 @@ public:
     void apply(const RecipeEntry& entry, const Progress& progress) {
         if (watch_.before) watch_.before(step_of(entry));
         const VesselEntry as = vessel_entry(extraction_entry(entry, session_), session_);
-        const std::optional<LogEntry> done = made(as.entry, progress);
+        const DecidedEntry decided = decided_entry(as.entry, session_, variant_, progress.silent());
+        const std::optional<LogEntry> done = made(decided.entry, progress);
+        if (done && !decided.remark.empty()) tell_(done->edit.operation + ": " + decided.remark);
         if (done && as.warning) warn_of(*as.warning, as.entry, *done);
         if (done && watch_.after) watch_.after(*done);
     }

@@ -4,6 +4,7 @@
 
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/surface_distance.h"
+#include "gpu/role_colours.h"
 
 namespace vesselbench {
 
@@ -34,7 +35,7 @@ std::vector<SourceFate> source_fates(const Surface& source, const Surface& model
 Colour fate_colour(SourceFate fate) {
     switch (fate) {
         case SourceFate::Closed:
-            return {0.40F, 0.05F, 0.65F};
+            return role_colour(ShownRole::Closed);
         case SourceFate::Lost:
             return {0.02F, 0.25F, 0.95F};
         case SourceFate::Kept:

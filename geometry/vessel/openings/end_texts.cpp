@@ -4,6 +4,10 @@
 
 namespace vesselbench {
 
+bool looks_like_sac(const EndVerdict& verdict) {
+    return verdict.odds.opening <= 0.5 && verdict.odds.sac >= verdict.odds.bump;
+}
+
 std::string closed_text(const EndVerdict& verdict) {
     const EndOdds& odds = verdict.odds;
     const std::string what =

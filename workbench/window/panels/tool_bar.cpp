@@ -60,6 +60,17 @@ void draw_undo(PanelContext& c) {
         c.place.document.redo();
 }
 
+/// For what the chosen variant is made, if it is a purpose's.
+void ask_for_purpose(PanelContext& c) {
+    c.shown.prepare = true;
+    const std::string& variant = c.place.document.variant();
+    const std::vector<std::string> names = purpose_names();
+    if (c.shown.purpose == variant || std::ranges::count(names, variant) == 0) return;
+    c.shown.purpose = variant;
+    c.shown.again_from.reset();
+    c.shown.entry.reset();
+}
+
 void draw_products(PanelContext& c) {
     const Document& document = c.place.document;
     if (button(c.ui, "tool.prepare", "Prepare",
@@ -67,7 +78,7 @@ void draw_products(PanelContext& c) {
                 .primary = true,
                 .enabled = document.can(RequestKind::Edit),
                 .help = "Run a complete recipe; its edits appear in the steps at the left"}))
-        c.shown.prepare = true;
+        ask_for_purpose(c);
     ImGui::SameLine();
     if (button(c.ui, "tool.export", "Export",
                {.icon = icons::kExport,

@@ -8,7 +8,9 @@ export const AFTER = 0x0072b2;
 export const GHOST = 0x7c8796;
 
 const WALL = 0xe3b3a2;
-const OUTLETS = [0xe69f00, 0x009e73, 0xcc79a7, 0x56b4e9, 0xf0e442, 0xd55e00];
+/** Green and blues, as the window and pictures have these roles. */
+const INLET = 0x009e73;
+const OUTLETS = [0x0072b2, 0x56b4e9];
 const hex = (colour) => `#${colour.toString(16).padStart(6, '0')}`;
 
 /** @param {{name, kind}[]} patches @returns {number[]} a colour for each */
@@ -16,7 +18,7 @@ export function patchColours(patches) {
   let outlets = 0;
   return patches.map(({ kind }) => {
     if (kind === 'wall') return WALL;
-    if (kind === 'inlet') return AFTER;
+    if (kind === 'inlet') return INLET;
     if (kind === 'outlet') return OUTLETS[outlets++ % OUTLETS.length];
     return kind === 'cap' ? 0x8c8c94 : 0xb9a5d6;
   });

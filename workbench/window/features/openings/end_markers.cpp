@@ -8,6 +8,7 @@
 #include <imgui.h>
 
 #include "geometry/kernel/wording.h"
+#include "gpu/role_colours.h"
 #include "workbench/window/core/core.h"
 #include "workbench/window/drawing/card.h"
 #include "workbench/window/drawing/region_lines.h"
@@ -46,6 +47,12 @@ std::vector<std::optional<ViewPixel>> marker_places(const Ui& ui, const PixelVie
     return marks_apart(screen, ends, kAbove * ui.em, 2.2 * kBadge * ui.em);
 }
 
+Paint paint_of(ShownRole role) {
+    const PixelColour colour = pixel_colour(role_colour(role));
+    const std::uint32_t red = colour[0], green = colour[1], blue = colour[2];
+    return paint(red << 16U | green << 8U | blue);
+}
+
 bool is_lit(const OpeningsModel& openings, const EndRow& row) {
     return openings.selected() == row.number || openings.pointed() == row.number;
 }
@@ -63,7 +70,7 @@ void draw_disc(const Ui& ui, const PixelView& screen, const EndRow& row, bool li
         outline.push_back(corner_of(*at));
     }
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    const Paint colour = end_colour(ui.theme, row.wish);
+    const Paint colour = end_colour(ui.theme, row);
     const auto count = static_cast<int>(outline.size());
     draw.AddConvexPolyFilled(outline.data(), count, faded(colour, lit ? 0.55 : 0.3));
     draw.AddPolyline(outline.data(), count, colour, ImDrawFlags_Closed,
@@ -76,7 +83,7 @@ void draw_marker(PanelContext& c, const PixelView& screen, const EndRow& row,
     if (!at || !end) return;
     const bool lit = is_lit(c.core.get<OpeningsFeature>().openings(), row);
     ImGui::GetWindowDrawList()->AddLine(corner_of(*at), corner_of(*end),
-                                        end_colour(c.ui.theme, row.wish), c.ui.em * 0.12F);
+                                        end_colour(c.ui.theme, row), c.ui.em * 0.12F);
     draw_end_badge(c.ui, *at, row, lit);
     const float radius = kBadge * c.ui.em;
     const ImVec2 middle = corner_of(*at);
@@ -103,18 +110,18 @@ std::vector<WishButton> buttons_of(const EndRow& row) {
 
 }  // namespace
 
-Paint end_colour(const Theme& theme, EndWish wish) {
-    switch (wish) {
+Paint end_colour(const Theme& theme, const EndRow& row) {
+    switch (row.wish) {
         case EndWish::Inlet:
-            return theme.accent;
+            return paint_of(ShownRole::Inlet);
         case EndWish::Outlet:
-            return theme.good;
+            return paint_of(ShownRole::Outlet);
         case EndWish::Removed:
             return theme.danger;
         case EndWish::Closed:
             break;
     }
-    return theme.muted;
+    return paint_of(row.sac ? ShownRole::Sac : ShownRole::Closed);
 }
 
 void draw_end_badge(const Ui& ui, const ViewPixel& at, const EndRow& row, bool lit) {
@@ -125,7 +132,7 @@ void draw_end_badge(const Ui& ui, const ViewPixel& at, const EndRow& row, bool l
                       : lit        ? paint(0xFFFFFF)
                                    : paint(0x101418, 200);
     draw.AddCircleFilled(middle, radius + ui.em * (row.doubtful || lit ? 0.2F : 0.1F), rim);
-    draw.AddCircleFilled(middle, radius, end_colour(ui.theme, row.wish));
+    draw.AddCircleFilled(middle, radius, end_colour(ui.theme, row));
     const ImFont* font = ui.fonts.small;
     const std::string number = std::to_string(row.number);
     const ImVec2 size = font->CalcTextSizeA(font->FontSize, 1e6F, 0, number.c_str());

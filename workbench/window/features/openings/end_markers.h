@@ -9,8 +9,8 @@
 
 namespace vesselbench {
 
-/// The colour that says what becomes of an end.
-[[nodiscard]] Paint end_colour(const Theme& theme, EndWish wish);
+/// The colour of what becomes of an end, as caps and pictures have it (role_colour).
+[[nodiscard]] Paint end_colour(const Theme& theme, const EndRow& row);
 
 /// The number of an end on a disc of its colour, drawn into ImGui's current window; one in doubt
 /// has a ring.

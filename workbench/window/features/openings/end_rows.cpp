@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "geometry/kernel/wording.h"
+#include "geometry/vessel/openings/end_texts.h"
 
 namespace vesselbench {
 
@@ -85,6 +86,7 @@ std::vector<EndRow> rows_of(const EndChoices& choices, const PlannedEnds& planne
                    .chosen = chosen,
                    .doubtful = !chosen && end.verdict && end.verdict->doubtful,
                    .removable = planned.plain->removable[e],
+                   .sac = end.verdict && looks_like_sac(*end.verdict),
                    .moved = choices.cuts.contains(end.number),
                    .why = reason_of(planned.decided(end), end, chosen)};
         if (row.is_open()) row.cut = opening_of(choices, planned, end.number);

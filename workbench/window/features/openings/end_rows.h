@@ -23,6 +23,7 @@ struct EndRow {
     bool chosen = false;                     ///< named by the user
     bool doubtful = false;                   ///< the odds do not decide, and no user has
     bool removable = false;                  ///< EndWish::Removed can be chosen
+    bool sac = false;                        ///< it looks like an aneurysm
     bool moved = false;                      ///< its cut is not where it was planned
     std::string why;                         ///< may be empty
     std::optional<PlannedOpening> cut = {};  ///< of an open end; none: not known yet

@@ -13,7 +13,23 @@ bool OpeningsFeature::update() {
     const bool changed = openings_.update(core_.document, core_.open_form());
     if (changed && core_.form() && !core_.before_drag())
         core_.fill_form(openings_.due_texts(*core_.form()));
+    const bool known = !openings_.rows().empty() || !openings_.problem().empty();
+    if (wanted_inlet_ && known && !openings_.pending()) fill_wanted_inlet();
     return changed;
+}
+
+/// The other ends stay what the edit made of them, whatever the odds say of its input now.
+void OpeningsFeature::fill_wanted_inlet() {
+    const Vec3 inlet = *std::exchange(wanted_inlet_, std::nullopt);
+    openings_.select_near(inlet);
+    const std::optional<int> number = openings_.selected();
+    if (!number || !core_.form() || !core_.form()->edit()) return;
+    const OperationForm& form = *core_.form();
+    const std::vector<EndRow> rows = openings_.rows();
+    const auto wishes = former_wishes(rows, *core_.document.snapshot(), *form.edit());
+    core_.fill_form(openings_.wish_texts(form, *number, EndWish::Inlet));
+    for (const auto& [end, wish] : wishes)
+        if (end != *number) core_.fill_form(openings_.wish_texts(*core_.form(), end, wish));
 }
 
 void OpeningsFeature::click(const PatchMeasures& opening) {
@@ -33,6 +49,12 @@ void OpeningsFeature::give_role(PatchKind role) {
     const std::optional<PatchMeasures> opening = std::exchange(asked_, std::nullopt);
     const Scene* scene = core_.document.shown();
     if (!opening || scene == nullptr || !scene->surface) return;
+    const auto made = made_opening(*core_.document.snapshot(), core_.document.variant(), *opening);
+    if (role == PatchKind::Inlet && made && !core_.form()) {
+        core_.choose_edit(made->edit);
+        wanted_inlet_ = made->tip;
+        return;
+    }
     const auto texts = role_texts(*opening, role, scene->surface->patches);
     if (!core_.form() || !has_field(*core_.form(), Meaning::Inlet)) core_.choose("clip-opening");
     core_.fill_form(texts);

@@ -22,7 +22,8 @@ public:
     /// The opening whose role is asked for.
     [[nodiscard]] const std::optional<PatchMeasures>& role_question() const { return asked_; }
 
-    /// Fills in the form so that the opening gets a role.
+    /// Fills in the form so that the opening gets a role: of the edit that opened all ends, if it
+    /// made this opening and it becomes the inlet, else of a new edit.
     void give_role(PatchKind role);
 
     void forget_role_question() { asked_.reset(); }
@@ -31,15 +32,23 @@ public:
 
     [[nodiscard]] bool pending() const override { return openings_.pending(); }
 
-    void form_dropped() override { forget_role_question(); }
+    void form_dropped() override {
+        forget_role_question();
+        wanted_inlet_.reset();
+    }
 
-    [[nodiscard]] bool allows_apply() const override { return openings_.can_apply(); }
+    [[nodiscard]] bool allows_apply() const override {
+        return !wanted_inlet_ && openings_.can_apply();
+    }
 
 private:
+    void fill_wanted_inlet();
+
     Core& core_;
     OpeningsModel openings_;
     std::optional<PatchMeasures> asked_;
-    int seen_scenes_ = -1;  ///< the document's scene changes
+    std::optional<Vec3> wanted_inlet_;  ///< becomes the inlet when the form's ends are known
+    int seen_scenes_ = -1;              ///< the document's scene changes
 };
 
 }  // namespace vesselbench
