@@ -1,4 +1,5 @@
 #include <iostream>
+#include <span>
 
 #include <nlohmann/json.hpp>
 
@@ -12,6 +13,7 @@
 #include "workbench/commands/console/messages.h"
 #include "workbench/findings/detectors.h"
 #include "workbench/findings/find_findings.h"
+#include "workbench/findings/question.h"
 #include "workbench/findings/treatment.h"
 #include "workbench/operations/table.h"
 #include "workbench/prepare/prepared_purposes.h"
@@ -27,15 +29,46 @@ std::string percent(double share) {
     return formatted(100.0 * share, "%.0f %%");
 }
 
-void print_open(const std::vector<Finding>& findings) {
-    if (findings.empty()) return void(std::cout << "nothing was found\n");
+std::string treatment_text(const Finding& finding) {
+    if (finding.treatment() == nullptr) return "-";
+    return finding.asks() ? "-, see below" : finding.treatment()->operation;
+}
+
+void print_rows(std::span<const Finding> findings) {
     std::vector<std::vector<std::string>> rows = {
-        {"finding", "certainty", "size [mm]", "treated by", "evidence"}};
+        {"finding", "what", "certainty", "size [mm]", "treated by", "evidence"}};
     for (const Finding& finding : findings)
-        rows.push_back({finding.id(), percent(finding.certainty), formatted(2.0 * finding.size),
-                        finding.treatment() != nullptr ? finding.treatment()->operation : "-",
+        rows.push_back({finding.id(), title_of(finding), percent(finding.certainty),
+                        formatted(2.0 * finding.size), treatment_text(finding),
                         worded(finding.evidence)});
     std::cout << as_columns(rows);
+}
+
+/// What the findings may be, and how each is answered.
+void print_questions(std::span<const Finding> findings, const std::string& project) {
+    for (const Finding& finding : findings) {
+        if (!finding.asks()) continue;
+        std::cout << "\n" << title_of(finding) << "  " << certainty_words(finding) << "\n";
+        for (const Reading& reading : finding.readings)
+            std::cout << "  " << reading_words(reading) << "\n";
+        std::cout << "  keep it:      vesselbench findings " << project << " --keep "
+                  << finding.id() << "\n";
+        if (finding.treatment() != nullptr)
+            std::cout << "  if " << artefact_reading(finding)->name << ": vesselbench findings "
+                      << project << " --apply " << finding.id() << " --as "
+                      << artefact_reading(finding)->key << "\n";
+    }
+}
+
+void print_open(const std::vector<Finding>& findings, const FindingsArguments& arguments) {
+    if (findings.empty()) return void(std::cout << "nothing was found\n");
+    const std::size_t count = arguments.all ? findings.size() : listed_count(findings);
+    const std::span<const Finding> listed = std::span(findings).first(count);
+    if (!listed.empty()) print_rows(listed);
+    print_questions(listed, arguments.project);
+    if (const std::size_t folded = findings.size() - count; folded > 0)
+        std::cout << (count > 0 ? "\n" : "") << folded_words(folded, count > 0)
+                  << ": --all lists them\n";
 }
 
 void print_dismissed(const std::vector<DismissedFinding>& dismissed) {
@@ -56,7 +89,7 @@ const Finding& finding_meant(const std::vector<Finding>& findings, const std::st
     return *finding;
 }
 
-void print_accepted(const LogEntry& entry, const FindingsArguments& arguments) {
+void print_treated(const LogEntry& entry, const FindingsArguments& arguments) {
     if (entry.result)
         for (const Diagnostic& warning : entry.result->warnings)
             warn(worded(warning, {.project = arguments.project}));
@@ -66,10 +99,19 @@ void print_accepted(const LogEntry& entry, const FindingsArguments& arguments) {
         std::cout << "edit " << entry.edit.edit.id << ": " << entry.edit.operation << "\n";
 }
 
-void dismiss_one(const FindingsArguments& arguments, const FindingSearch& search) {
-    const Finding& finding = finding_meant(search.findings, arguments.dismissed);
-    dismiss(arguments.project, search, finding, arguments.reason);
-    if (!arguments.json) std::cout << "dismissed: " << finding.id() << "\n";
+/// The reason that is given; of a question that is kept without one, what it asked.
+std::string reason_for(const Finding& finding, const FindingsArguments& arguments) {
+    if (arguments.kept.empty() || !arguments.reason.empty()) return arguments.reason;
+    if (finding.asks()) return kept_reason(finding);
+    throw UsageError("say with --reason why " + finding.id() + " is kept");
+}
+
+void keep_one(const FindingsArguments& arguments, const FindingSearch& search) {
+    const bool kept = !arguments.kept.empty();
+    const Finding& finding =
+        finding_meant(search.findings, kept ? arguments.kept : arguments.dismissed);
+    dismiss(arguments.project, search, finding, reason_for(finding, arguments));
+    if (!arguments.json) std::cout << (kept ? "kept: " : "dismissed: ") << finding.id() << "\n";
 }
 
 void restore_one(const FindingsArguments& arguments) {
@@ -79,8 +121,12 @@ void restore_one(const FindingsArguments& arguments) {
 }
 
 void check(const FindingsArguments& arguments) {
-    if (arguments.reason.empty() != arguments.dismissed.empty())
+    if (!arguments.dismissed.empty() && arguments.reason.empty())
         throw UsageError("--dismiss and --reason are given together");
+    if (!arguments.reason.empty() && arguments.dismissed.empty() && arguments.kept.empty())
+        throw UsageError("--reason says why something is kept: give --keep or --dismiss, too");
+    if (!arguments.taken_as.empty() && arguments.applied.empty())
+        throw UsageError("--as answers a finding that is applied: give --apply, too");
 }
 
 }  // namespace
@@ -91,20 +137,22 @@ void show_findings(const FindingsArguments& arguments, const Progress& progress)
     const std::string variant =
         variant_of(arguments.project, arguments.variant, *session.snapshot()->history);
     const Scene scene = session.scene(variant, progress.part(0.0, 0.3));
-    const FindingSearch found = find_findings(scene, progress.part(0.3, 1.0));
-    if (!arguments.accepted.empty())
-        return print_accepted(
-            accept(session, finding_meant(found.findings, arguments.accepted), variant, progress),
-            arguments);
-    if (!arguments.dismissed.empty()) dismiss_one(arguments, found);
+    const FindingSearch found =
+        find_findings(scene, stated_ends(session.log(variant)), progress.part(0.3, 1.0));
+    if (!arguments.applied.empty())
+        return print_treated(treat(session, finding_meant(found.findings, arguments.applied),
+                                   arguments.taken_as, variant, progress),
+                             arguments);
+    const bool keeps = !arguments.dismissed.empty() || !arguments.kept.empty();
+    if (keeps) keep_one(arguments, found);
     if (!arguments.restored.empty()) restore_one(arguments);
     const JudgedFindings findings = judged(found, stored_dismissals(arguments.project));
     if (arguments.json) {
         Json json = {{"project", session.project().name()}, {"variant", variant}};
         json.update(findings_json(findings));
         std::cout << text_from_json(json, 2) << "\n";
-    } else if (arguments.dismissed.empty() && arguments.restored.empty()) {
-        print_open(findings.open);
+    } else if (!keeps && arguments.restored.empty()) {
+        print_open(findings.open, arguments);
         print_dismissed(findings.dismissed);
         for (const std::string& line : not_searched_lines(findings.not_searched))
             std::cout << line << "\n";

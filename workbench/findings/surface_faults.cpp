@@ -71,6 +71,19 @@ Pieces pieces_of(const Surface& surface) {
     return pieces;
 }
 
+/// What is longer than it is wide may be the continuation of a vessel that the image interrupts;
+/// anything else is debris.
+std::vector<Reading> piece_readings(const PieceShape& shape) {
+    constexpr double kVessel = 2.0;  // length over diameter
+    const double ratio = shape.length / std::max(shape.diameter, 1e-9);
+    if (ratio < kVessel) return {};
+    return {{.key = "vessel",
+             .name = "part of a vessel",
+             .anatomy = true,
+             .evidence = {{.code = "reading-long", .figures = {{"ratio", ratio}}}}},
+            {.key = "debris", .name = "debris"}};
+}
+
 void sort_by_size(std::vector<Finding>& findings) {
     std::ranges::stable_sort(findings, std::greater{}, &Finding::size);
     if (findings.size() > kMostPlaces) findings.resize(kMostPlaces);
@@ -123,7 +136,8 @@ std::vector<Finding> find_detached_pieces(FindingSubject& subject, const Progres
                                       {"length_mm", shape.length},
                                       {"diameter_mm", shape.diameter},
                                       {"area_percent", 100.0 * areas[shape.piece] / area(surface)}},
-                          .remedies = {{.operation = "repair"}}}});
+                          .remedies = {{.operation = "repair"}}},
+             .readings = piece_readings(shape)});
     }
     sort_by_size(findings);
     return findings;

@@ -6,14 +6,17 @@
 #include "geometry/kernel/errors.h"
 #include "workbench/case/argument_texts.h"
 #include "workbench/case/diagnostic_words.h"
+#include "workbench/case/readable_name.h"
 #include "workbench/findings/detectors.h"
+#include "workbench/findings/question.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {
 
 Step treatment_step(const Operation& operation, const std::vector<LogEntry>& log) {
     const Step last = log.empty() ? Step::Source : log.back().edit.place.step;
-    if (operation.usual_step >= last) return operation.usual_step;
+    if (operation.usual_step >= last || operation.usual_step == Step::Branches)
+        return operation.usual_step;
     std::vector<Step> allowed = operation.allowed;
     std::ranges::sort(allowed);
     const auto behind = std::ranges::lower_bound(allowed, last);
@@ -21,11 +24,15 @@ Step treatment_step(const Operation& operation, const std::vector<LogEntry>& log
 }
 
 std::string treatment_note(const Finding& finding) {
-    return title_of_kind(finding.kind) + ": " + worded(finding.evidence);
+    const Reading* artefact = artefact_reading(finding);
+    if (artefact == nullptr) return title_of_kind(finding.kind) + ": " + worded(finding.evidence);
+    return readable_sentence(artefact->name) + " (of: " + odds_words(finding) +
+           "): " + worded(finding.evidence);
 }
 
-LogEntry accept(Session& session, const Finding& finding, const std::string& variant,
-                const Progress& progress) {
+LogEntry treat(Session& session, const Finding& finding, const std::string& taken_as,
+               const std::string& variant, const Progress& progress) {
+    require_answer(finding, taken_as);
     const Remedy* treatment = finding.treatment();
     if (treatment == nullptr)
         throw DiagnosedFailure({.code = "finding-without-treatment",

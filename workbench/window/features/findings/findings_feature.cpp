@@ -8,6 +8,7 @@
 #include "workbench/case/diagnostic_words.h"
 #include "workbench/findings/detectors.h"
 #include "workbench/findings/find_findings.h"
+#include "workbench/findings/question.h"
 #include "workbench/findings/treatment.h"
 #include "workbench/operations/table.h"
 #include "workbench/window/core/panel_context.h"
@@ -23,6 +24,7 @@ void FindingsFeature::forget() {
     at_.reset();
     asked_.reset();
     reason.clear();
+    unfolded_ = false;
     tour_ = 0;
 }
 
@@ -33,10 +35,10 @@ void FindingsFeature::want() {
     at_.reset();
     asked_.reset();
     of_ = scene->surface->positions;
-    search_.start(
-        [scene = *scene, project = core_.document.project()](const Progress& progress) -> Found {
-            return {find_findings(scene, progress), stored_dismissals(project)};
-        });
+    search_.start([scene = *scene, stated = stated_ends(log()),
+                   project = core_.document.project()](const Progress& progress) -> Found {
+        return {find_findings(scene, stated, progress), stored_dismissals(project)};
+    });
 }
 
 void FindingsFeature::judge() {
@@ -81,6 +83,21 @@ bool FindingsFeature::drop_stale() {
     return true;
 }
 
+/// Of the variant that is shown.
+std::vector<LogEntry> FindingsFeature::log() const {
+    std::vector<LogEntry> log = core_.document.snapshot()->log;
+    std::erase_if(log, [&](const LogEntry& entry) {
+        const std::string& variant = entry.edit.place.variant;
+        return !variant.empty() && variant != core_.document.variant();
+    });
+    return log;
+}
+
+std::size_t FindingsFeature::listed() const {
+    if (!findings_) return 0;
+    return unfolded_ ? findings_->open.size() : listed_count(findings_->open);
+}
+
 const Finding* FindingsFeature::finding(std::size_t index) const {
     return findings_ && index < findings_->open.size() ? &findings_->open[index] : nullptr;
 }
@@ -97,27 +114,30 @@ void FindingsFeature::go(int steps) {
         tour_ = steps;
         return want();
     }
-    const auto count = static_cast<int>(findings_->open.size());
-    if (count == 0)
-        return core_.document.tell(
-            make_message(MessageKind::Remark, "Nothing on the model looks wrong"));
+    const auto count = static_cast<int>(listed());
+    if (count == 0) {
+        const std::size_t folded = findings_->open.size();
+        return core_.document.tell(make_message(
+            MessageKind::Remark, "Nothing on the model looks wrong" +
+                                     (folded > 0 ? " (" + folded_words(folded, false) + ")" : "")));
+    }
     const int from = at_ ? static_cast<int>(*at_) : steps > 0 ? -1 : 0;
     const auto next = static_cast<std::size_t>(((from + steps) % count + count) % count);
     look_at(next);
     const Finding& found = findings_->open[next];
-    core_.document.tell(make_message(
-        MessageKind::Remark, title_of_kind(found.kind) + ", " + std::to_string(next + 1) + " of " +
-                                 std::to_string(count) + ": " +
-                                 worded(found.evidence, {.window = true})));
+    core_.document.tell(
+        make_message(MessageKind::Remark, title_of(found) + " " + std::to_string(next + 1) +
+                                              " of " + std::to_string(count) + ": " +
+                                              worded(found.evidence, {.window = true})));
 }
 
 Step FindingsFeature::step_for(const std::string& operation) const {
-    return treatment_step(find_operation(operation), core_.document.snapshot()->log);
+    return treatment_step(find_operation(operation), log());
 }
 
-void FindingsFeature::accept(std::size_t index) {
+void FindingsFeature::treat_at_once(std::size_t index) {
     const Finding* found = finding(index);
-    if (found == nullptr || found->treatment() == nullptr) return;
+    if (found == nullptr || found->treatment() == nullptr || found->asks()) return;
     const Operation& operation = find_operation(found->treatment()->operation);
     GivenArguments given(operation);
     for (const auto& [name, value] : found->treatment()->arguments) given.set(name, value);
@@ -134,19 +154,25 @@ void FindingsFeature::change(std::size_t index) {
     look_at(index);
 }
 
-void FindingsFeature::ask_reason(std::size_t index) {
+void FindingsFeature::keep(std::size_t index) {
+    const Finding* found = finding(index);
+    if (found != nullptr && found->asks()) return store(*found, kept_reason(*found));
     asked_ = asked_ == index ? std::nullopt : std::optional(index);
     reason.clear();
 }
 
-void FindingsFeature::dismiss_asked() {
+void FindingsFeature::keep_asked() {
     const Finding* found = asked_ ? finding(*asked_) : nullptr;
     if (found == nullptr || reason.find_first_not_of(" \t\n") == std::string::npos) return;
-    storing_.start([project = core_.document.project(), search = found_.search, dismissed = *found,
-                    words = reason](const Progress&) {
-        dismiss(project, search, dismissed, words);
-        return stored_dismissals(project);
-    });
+    store(*found, reason);
+}
+
+void FindingsFeature::store(const Finding& kept, const std::string& words) {
+    storing_.start(
+        [project = core_.document.project(), search = found_.search, kept, words](const Progress&) {
+            dismiss(project, search, kept, words);
+            return stored_dismissals(project);
+        });
 }
 
 void FindingsFeature::keys(PanelContext& context) {

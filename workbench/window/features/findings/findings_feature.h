@@ -30,33 +30,41 @@ public:
     /// Why there are none; empty: no problem.
     [[nodiscard]] const std::string& problem() const { return search_.problem(); }
 
+    /// How many of those that are not dismissed are listed: all, or the first ones.
+    [[nodiscard]] std::size_t listed() const;
+
+    /// Lists the less certain ones as well, or no longer.
+    void unfold(bool all) { unfolded_ = all; }
+
     /// The one that is looked at; none: none of them.
     [[nodiscard]] const std::optional<std::size_t>& at() const { return at_; }
 
     /// Looks at a finding.
     void look_at(std::size_t finding);
 
-    /// Looks at the next finding, round and round; back with -1.
+    /// Looks at the next finding that is listed, round and round; back with -1.
     void go(int steps);
 
-    /// Runs the operation that treats it. Ignored without one.
-    void accept(std::size_t finding);
+    /// Runs the operation that treats it. Ignored without one, and of a question: what may be
+    /// anatomy is looked at in the form first.
+    void treat_at_once(std::size_t finding);
 
     /// Opens the form of that operation, with its arguments.
     void change(std::size_t finding);
 
-    // --- dismissing
+    // --- keeping what was found
 
-    /// Asks for the reason; the same one again: asks no longer.
-    void ask_reason(std::size_t finding);
+    /// A question is answered with "keep" at once. Of anything else, asks for the reason; the same
+    /// one again: asks no longer.
+    void keep(std::size_t finding);
 
     /// The finding whose reason is being written; none: nobody is asked.
     [[nodiscard]] const std::optional<std::size_t>& asked() const { return asked_; }
 
     std::string reason;  ///< as far as it is written
 
-    /// Dismisses the finding that was asked about. Ignored while the reason is blank.
-    void dismiss_asked();
+    /// Keeps the finding that was asked about. Ignored while the reason is blank.
+    void keep_asked();
 
     [[nodiscard]] bool update() override;
 
@@ -79,6 +87,8 @@ private:
     /// \return true if findings of another model were dropped
     bool drop_stale();
     [[nodiscard]] const Finding* finding(std::size_t index) const;
+    [[nodiscard]] std::vector<LogEntry> log() const;
+    void store(const Finding& kept, const std::string& words);
     [[nodiscard]] Step step_for(const std::string& operation) const;
 
     Core& core_;
@@ -88,6 +98,7 @@ private:
     Found found_;
     std::optional<JudgedFindings> findings_;
     std::optional<std::size_t> at_, asked_;
+    bool unfolded_ = false;
     int tour_ = 0;  ///< steps to be made when the findings are known
 };
 
