@@ -641,7 +641,8 @@ constexpr CatalogueText kTexts[] = {
      "wide]: no vessel ends there"},
     {"found-contact",
      "two walls are {distance_mm} mm apart, where less than {limit_mm} mm cannot be told from "
-     "vessels that are joined"},
+     "vessels that are joined; on the model they are apart, so that nothing is left to be "
+     "separated: see in the image whether they are one vessel"},
     {"found-thread",
      "the lumen is {width_mm} mm wide, less than half a voxel ({limit_mm} mm): the image hardly "
      "shows it"},

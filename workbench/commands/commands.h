@@ -316,6 +316,7 @@ struct FindingsArguments {
     std::string reason;     ///< why it is kept
     std::string restored;   ///< id of the finding whose dismissal is taken back; empty: none
     bool all = false;       ///< lists the less certain ones as well
+    bool tried = false;     ///< says which operations would be refused
     bool json = false;
 };
 

@@ -1,4 +1,5 @@
 #include <iostream>
+#include <map>
 #include <span>
 
 #include <nlohmann/json.hpp>
@@ -8,6 +9,7 @@
 #include "geometry/kernel/wording.h"
 #include "workbench/case/diagnostic_words.h"
 #include "workbench/case/json_text.h"
+#include "workbench/case/shell_text.h"
 #include "workbench/commands/commands.h"
 #include "workbench/commands/console/console.h"
 #include "workbench/commands/console/messages.h"
@@ -31,44 +33,80 @@ std::string percent(double share) {
 
 std::string treatment_text(const Finding& finding) {
     if (finding.treatment() == nullptr) return "-";
-    return finding.asks() ? "-, see below" : finding.treatment()->operation;
+    return finding.asks() ? "a question" : finding.treatment()->operation;
 }
 
-void print_rows(std::span<const Finding> findings) {
+/// Why the operations that treat findings are refused, by id; absent: not refused, or not tried.
+using Refusals = std::map<std::string, std::string>;
+
+Refusals refusals_of(Session& session, std::span<const Finding> findings,
+                     const std::string& variant, const Progress& progress) {
+    Refusals refusals;
+    for (const Finding& finding : findings)
+        if (const std::string why = refusal_of(session, finding, variant, progress); !why.empty())
+            refusals[finding.id()] = why;
+    return refusals;
+}
+
+void print_refusals(const Refusals& refusals) {
+    for (const auto& [id, why] : refusals)
+        std::cout << "\n" << id << " cannot be treated: " << why << "\n";
+}
+
+void print_rows(std::span<const Finding> findings, const Refusals& refusals) {
     std::vector<std::vector<std::string>> rows = {
         {"finding", "what", "certainty", "size [mm]", "treated by", "evidence"}};
     for (const Finding& finding : findings)
         rows.push_back({finding.id(), title_of(finding), percent(finding.certainty),
-                        formatted(2.0 * finding.size), treatment_text(finding),
+                        formatted(2.0 * finding.size),
+                        refusals.contains(finding.id()) ? "refused" : treatment_text(finding),
                         worded(finding.evidence)});
     std::cout << as_columns(rows);
 }
 
 /// What the findings may be, and how each is answered.
-void print_questions(std::span<const Finding> findings, const std::string& project) {
+void print_questions(std::span<const Finding> findings, const Refusals& refusals,
+                     const std::string& project) {
+    const std::string call = "vesselbench findings " + shell_quoted(project);
     for (const Finding& finding : findings) {
         if (!finding.asks()) continue;
         std::cout << "\n" << title_of(finding) << "  " << certainty_words(finding) << "\n";
         for (const Reading& reading : finding.readings)
             std::cout << "  " << reading_words(reading) << "\n";
-        std::cout << "  keep it:      vesselbench findings " << project << " --keep "
-                  << finding.id() << "\n";
-        if (finding.treatment() != nullptr)
-            std::cout << "  if " << artefact_reading(finding)->name << ": vesselbench findings "
-                      << project << " --apply " << finding.id() << " --as "
-                      << artefact_reading(finding)->key << "\n";
+        std::cout << "  keep it: " << call << " --keep " << finding.id() << "\n";
+        if (const Reading* artefact = artefact_reading(finding);
+            finding.treatment() != nullptr && !refusals.contains(finding.id()))
+            std::cout << "  if it is " << artefact->name << ": " << call << " --apply "
+                      << finding.id() << " --as " << artefact->key << "\n";
     }
 }
 
-void print_open(const std::vector<Finding>& findings, const FindingsArguments& arguments) {
+/// Those that are listed.
+std::span<const Finding> listed(const std::vector<Finding>& findings,
+                                const FindingsArguments& arguments) {
+    const bool all = arguments.all || arguments.json;
+    return std::span(findings).first(all ? findings.size() : listed_count(findings));
+}
+
+void print_open(const std::vector<Finding>& findings, const Refusals& refusals,
+                const FindingsArguments& arguments) {
     if (findings.empty()) return void(std::cout << "nothing was found\n");
-    const std::size_t count = arguments.all ? findings.size() : listed_count(findings);
-    const std::span<const Finding> listed = std::span(findings).first(count);
-    if (!listed.empty()) print_rows(listed);
-    print_questions(listed, arguments.project);
-    if (const std::size_t folded = findings.size() - count; folded > 0)
-        std::cout << (count > 0 ? "\n" : "") << folded_words(folded, count > 0)
+    const std::span<const Finding> shown = listed(findings, arguments);
+    if (!shown.empty()) print_rows(shown, refusals);
+    print_questions(shown, refusals, arguments.project);
+    print_refusals(refusals);
+    if (const std::size_t folded = findings.size() - shown.size(); folded > 0)
+        std::cout << (shown.empty() ? "" : "\n") << folded_words(folded, !shown.empty())
                   << ": --all lists them\n";
+}
+
+/// With what was tried: "refusal", null where the operation is not refused.
+Json tried_json(Json findings, const Refusals& refusals) {
+    for (Json& finding : findings["findings"]) {
+        const auto refusal = refusals.find(finding["id"].get<std::string>());
+        finding["refusal"] = refusal == refusals.end() ? Json(nullptr) : Json(refusal->second);
+    }
+    return findings;
 }
 
 void print_dismissed(const std::vector<DismissedFinding>& dismissed) {
@@ -147,12 +185,16 @@ void show_findings(const FindingsArguments& arguments, const Progress& progress)
     if (keeps) keep_one(arguments, found);
     if (!arguments.restored.empty()) restore_one(arguments);
     const JudgedFindings findings = judged(found, stored_dismissals(arguments.project));
+    Refusals refusals;
+    if (arguments.tried)
+        refusals = refusals_of(session, listed(findings.open, arguments), variant, progress);
     if (arguments.json) {
         Json json = {{"project", session.project().name()}, {"variant", variant}};
-        json.update(findings_json(findings));
+        const Json found_json = findings_json(findings);
+        json.update(arguments.tried ? tried_json(found_json, refusals) : found_json);
         std::cout << text_from_json(json, 2) << "\n";
     } else if (!keeps && arguments.restored.empty()) {
-        print_open(findings.open, arguments);
+        print_open(findings.open, refusals, arguments);
         print_dismissed(findings.dismissed);
         for (const std::string& line : not_searched_lines(findings.not_searched))
             std::cout << line << "\n";

@@ -250,6 +250,9 @@ void add_findings(CommandLine& line) {
         ->type_name("WORDS");
     command.add_flag("--all", options->all,
                      "List also what is less than 50 % certain; --json always does");
+    command.add_flag(
+        "--try", options->tried,
+        "Try the operation of each that is listed, and say which are refused, and why");
     add_json(command, options->json);
 }
 

@@ -46,7 +46,8 @@ std::optional<EndVerdict> FindingSubject::verdict_at(const Vec3& tip, const Prog
     if (nearest == tips_->end() || away(*nearest) > 0.5 * nearest->verdict.profile.diameter)
         return std::nullopt;
     EndVerdict verdict = nearest->verdict;
-    if (const StatedEnd* stated = stated_at(stated_, tip)) verdict.odds = stated->odds;
+    if (const StatedEnd* stated = stated_at(stated_, tip, verdict.profile.diameter))
+        verdict.odds = stated->odds;
     return verdict;
 }
 

@@ -54,12 +54,14 @@ std::vector<StatedEnd> stated_ends(const std::vector<LogEntry>& log) {
     return stated;
 }
 
-const StatedEnd* stated_at(std::span<const StatedEnd> stated, const Vec3& place) {
+const StatedEnd* stated_at(std::span<const StatedEnd> stated, const Vec3& place, double diameter) {
+    constexpr double kAlike = 2.0;  // widths
     const StatedEnd* nearest = nullptr;
     double least = std::numeric_limits<double>::infinity();
     for (const StatedEnd& end : stated) {
         const double away = (end.place - place).norm();
-        if (away > 0.5 * end.diameter || away >= least) continue;
+        const bool alike = diameter < kAlike * end.diameter && end.diameter < kAlike * diameter;
+        if (!alike || away > end.diameter || away >= least) continue;
         least = away;
         nearest = &end;
     }

@@ -20,7 +20,10 @@ struct StatedEnd {
 /// out.
 [[nodiscard]] std::vector<StatedEnd> stated_ends(const std::vector<LogEntry>& log);
 
-/// The nearest one within a radius of a place; null: none.
-[[nodiscard]] const StatedEnd* stated_at(std::span<const StatedEnd> stated, const Vec3& place);
+/// The nearest one that is the same end: within its vessel's diameter, since the tip of a sac moves
+/// with every smoothing, and neither vessel more than twice as wide as the other; null: none.
+/// \param diameter of the vessel at the place [mm]
+[[nodiscard]] const StatedEnd* stated_at(std::span<const StatedEnd> stated, const Vec3& place,
+                                         double diameter);
 
 }  // namespace vesselbench

@@ -17,6 +17,12 @@ namespace vesselbench {
 /// The note of an edit that treats a finding: what was found.
 [[nodiscard]] std::string treatment_note(const Finding& finding);
 
+/// Tries the operation that treats a finding, and enters nothing.
+/// \return why it is refused, in words; empty: it is not, or there is none
+/// \throw what Session::preview() throws of a project that cannot be read; Cancelled
+[[nodiscard]] std::string refusal_of(Session& session, const Finding& finding,
+                                     const std::string& variant, const Progress& progress = {});
+
 /// Runs the operation that treats a finding, as an edit whose note says what was found.
 /// \param taken_as key of the reading that a question is answered with; empty: it is no question
 /// \throw UsageError as require_answer(); DiagnosedFailure if no operation treats it; what

@@ -166,6 +166,8 @@ std::vector<Finding> find_stubs(FindingSubject& subject, const Progress& progres
         const double bulge =
             std::min(certainty_of(2.0 * branch.length / branch.parent, kEvenRise, kSureRise),
                      certainty_of(branch.diameter / subject.mean_edge(), kEvenWidth, kSureWidth));
+        const auto verdict = subject.verdict_at(branch.tip, progress);
+        if (!verdict && !branch.has_line) continue;  // it is part of another end
         Finding finding{.kind = "stub",
                         .place = branch.tip,
                         .size = std::max(branch.length, 0.5 * branch.diameter),
@@ -174,7 +176,7 @@ std::vector<Finding> find_stubs(FindingSubject& subject, const Progress& progres
                                      .figures = {{"length_mm", branch.length},
                                                  {"diameter_mm", branch.diameter},
                                                  {"parent_mm", branch.parent}}},
-                        .readings = branch_readings(subject.verdict_at(branch.tip, progress))};
+                        .readings = branch_readings(verdict)};
         if (branch.has_line)
             finding.evidence.remedies = {
                 {.operation = "remove-branch",
