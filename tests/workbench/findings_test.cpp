@@ -171,8 +171,8 @@ SCENARIO("Faults of the image are found where they are", "[workbench][findings]"
 SCENARIO("A blind branch is a question, with the odds that decide the vessel ends",
          "[workbench][findings]") {
     const Scene scene = scene_of(vessel_with(
-        {vessel("neck", {0.5, 1, 0}, {-3.0, 1, 0}, 0.8),
-         {.name = "dome", .shape = SphereShape{.centre = Vec3(-4, 1, 0), .radius = 1.8}}}));
+        {vessel("neck", {0.5, 1, 0}, {-4.4, 1, 0}, 1.3),
+         {.name = "dome", .shape = SphereShape{.centre = Vec3(-4.4, 1, 0), .radius = 2.6}}}));
     const auto found = of_kind(find_findings(scene), "stub");
     REQUIRE_FALSE(found.empty());
     const Finding& dome = found[0];

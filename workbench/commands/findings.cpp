@@ -76,7 +76,7 @@ void print_questions(std::span<const Finding> findings, const Refusals& refusals
         std::cout << "  keep it: " << call << " --keep " << finding.id() << "\n";
         if (const Reading* artefact = artefact_reading(finding);
             finding.treatment() != nullptr && !refusals.contains(finding.id()))
-            std::cout << "  if it is " << artefact->name << ": " << call << " --apply "
+            std::cout << "  answer \"" << artefact->name << "\": " << call << " --apply "
                       << finding.id() << " --as " << artefact->key << "\n";
     }
 }
