@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <numbers>
 
 #include <catch2/catch.hpp>
 
@@ -147,6 +148,31 @@ SCENARIO("What may be anatomy is asked, and kept at one click", "[window][findin
             CHECK(shell->app().place().form()->operation().name == "remove-branch");
         }
     }
+}
+
+SCENARIO("A correction that is refused is not offered", "[window][findings]") {
+    const auto shell = test_shell();
+    if (!shell) return;
+    const std::string file = temporary_folder() + "/narrow.stl";
+    write_surface(mapped(closed_tube(2.0, 40.0, 32, 160),
+                         [](const Vec3& p) {
+                             const double x = std::min(1.0, std::abs(p.z() - 20.0) / 5.0);
+                             const double width = 0.6 - 0.4 * std::cos(std::numbers::pi * x);
+                             return Vec3(width * p.x(), width * p.y(), p.z());
+                         }),
+                  file);
+    open_and_wait(*shell, file);
+    REQUIRE(shell->click_item("tab.findings"));
+    wait_for_findings(*shell);
+    REQUIRE(count(*shell) > 0);
+    CHECK(findings_of(*shell).findings()->open[0].kind == "narrowing");
+    CHECK(shell->app().ui().items().at("findings.change.0").enabled);
+    REQUIRE(shell->click_item("findings.look.0"));
+    REQUIRE(shell->run_until([&] { return findings_of(*shell).refusal(0) != nullptr; }, 60s));
+    CHECK_THAT(*findings_of(*shell).refusal(0), Catch::Matchers::Contains("nearly closed"));
+    REQUIRE(shell->settle(60s));
+    CHECK_FALSE(shell->app().ui().items().at("findings.change.0").enabled);
+    CHECK(shell->app().ui().items().at("findings.keep.0").enabled);
 }
 
 SCENARIO("Findings that are more likely wrong than right are unfolded by a click",

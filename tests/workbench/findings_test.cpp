@@ -11,6 +11,7 @@
 #include "geometry/image/extract_surface.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/plain_name.h"
+#include "geometry/kernel/wording.h"
 #include "geometry/phantoms/phantom.h"
 #include "geometry/vessel/centerlines/centerlines.h"
 #include "geometry/vessel/openings/openings.h"
@@ -94,6 +95,15 @@ Surface tube_with_bump() {
     });
 }
 
+/// A tube that narrows in its middle. \param depth half of the share of the radius that is missing
+Surface narrowed_tube(double depth) {
+    return mapped(closed_tube(2.0, 40.0, 32, 160), [depth](const Vec3& p) {
+        const double x = std::min(1.0, std::abs(p.z() - 20.0) / 5.0);
+        const double width = 1.0 - depth * (1.0 + std::cos(std::numbers::pi * x));
+        return Vec3(width * p.x(), width * p.y(), p.z());
+    });
+}
+
 ProgramRun run(const std::vector<std::string>& arguments) {
     return run_program(program_path(), arguments);
 }
@@ -139,11 +149,7 @@ SCENARIO("On a sound vessel nothing is called sure", "[workbench][findings]") {
 }
 
 SCENARIO("A narrowing is found, with the operation that widens it", "[workbench][findings]") {
-    const Scene scene = scene_of(mapped(closed_tube(2.0, 40.0, 32, 160), [](const Vec3& p) {
-        const double x = std::min(1.0, std::abs(p.z() - 20.0) / 5.0);
-        const double width = 1.0 - 0.2 * (1.0 + std::cos(std::numbers::pi * x));
-        return Vec3(width * p.x(), width * p.y(), p.z());
-    }));
+    const Scene scene = scene_of(narrowed_tube(0.2));
     check_found(scene, "narrowing", Vec3(0, 0, 20), 2.0);
     const Finding found = of_kind(find_findings(scene), "narrowing")[0];
     REQUIRE(found.treatment() != nullptr);
@@ -545,6 +551,27 @@ SCENARIO("A question is kept with a word, and nothing removes it unanswered",
         CHECK(edit["operation"] == "remove-branch");
         CHECK(edit["step"] == "branches");
         CHECK_THAT(edit["note"].get<std::string>(), Contains("Stub (of: "));
+    }
+}
+
+SCENARIO("Corrections are tried before they are offered", "[workbench][findings]") {
+    const std::string folder = temporary_folder();
+    for (const double depth : {0.2, 0.4}) {  // the second one is nearly closed
+        CAPTURE(depth);
+        const std::string name = folder + "/" + formatted(depth);
+        write_surface(narrowed_tube(depth), name + ".stl");
+        const std::string project = name + ".vbench";
+        REQUIRE(run({"new", project, name + ".stl", "--units", "mm"}).exit_code == 0);
+        const Json tried = Json::parse(run({"findings", project, "--try", "--json"}).out);
+        REQUIRE_FALSE(tried["findings"].empty());
+        const Json& narrowing = tried["findings"][0];
+        CHECK(narrowing["kind"] == "narrowing");
+        CHECK(narrowing["refusal"].is_string() == (depth > 0.3));
+        const std::string listed = run({"findings", project, "--try"}).out;
+        CHECK((listed.find("--as artefact") == std::string::npos) == (depth > 0.3));
+        CHECK((listed.find("cannot be treated: the vessel is nearly closed") !=
+               std::string::npos) == (depth > 0.3));
+        CHECK_FALSE(findings_in(project)["findings"][0].contains("refusal"));
     }
 }
 

@@ -19,6 +19,8 @@ namespace vesselbench {
 void FindingsFeature::forget() {
     search_.forget();
     storing_.forget();
+    end_trial();
+    refusals_.clear();
     of_.reset();
     findings_.reset();
     at_.reset();
@@ -43,6 +45,8 @@ void FindingsFeature::want() {
 
 void FindingsFeature::judge() {
     findings_ = judged(found_.search, found_.dismissals);
+    end_trial();
+    refusals_.clear();  // they are by number
     asked_.reset();
     reason.clear();
     if (at_ && *at_ >= findings_->open.size()) at_.reset();
@@ -58,6 +62,12 @@ bool FindingsFeature::update() {
             judge();
             if (steps != 0) go(steps);
         }
+    }
+    if (trial_.poll()) {
+        changed = true;
+        auto refusal = trial_.take();
+        if (refusal && tried_) refusals_[*tried_] = *std::move(refusal);
+        tried_.reset();
     }
     if (storing_.poll()) {
         changed = true;
@@ -76,6 +86,8 @@ bool FindingsFeature::drop_stale() {
     const bool same = scene != nullptr && scene->surface && scene->surface->positions == of_;
     if (same || !of_) return false;
     search_.forget();
+    end_trial();
+    refusals_.clear();
     of_.reset();
     findings_.reset();
     at_.reset();
@@ -107,6 +119,31 @@ void FindingsFeature::look_at(std::size_t index) {
     if (found == nullptr) return;
     at_ = index;
     core_.look_at(found->place);
+    try_correction(index);
+}
+
+void FindingsFeature::try_correction(std::size_t index) {
+    const Finding& found = findings_->open[index];
+    if (refusals_.contains(index) || found.treatment() == nullptr ||
+        !core_.document.can(RequestKind::Edit))
+        return;
+    end_trial();
+    trial_ = core_.document.runner()->submit(
+        [found, variant = core_.document.variant()](Session& session, const Progress& progress) {
+            return refusal_of(session, found, variant, progress);
+        },
+        "trial");
+    tried_ = index;
+}
+
+void FindingsFeature::end_trial() {
+    trial_.forget();
+    tried_.reset();
+}
+
+const std::string* FindingsFeature::refusal(std::size_t index) const {
+    const auto found = refusals_.find(index);
+    return found == refusals_.end() || found->second.empty() ? nullptr : &found->second;
 }
 
 void FindingsFeature::go(int steps) {
@@ -138,6 +175,7 @@ Step FindingsFeature::step_for(const std::string& operation) const {
 void FindingsFeature::treat_at_once(std::size_t index) {
     const Finding* found = finding(index);
     if (found == nullptr || found->treatment() == nullptr || found->asks()) return;
+    end_trial();
     const Operation& operation = find_operation(found->treatment()->operation);
     GivenArguments given(operation);
     for (const auto& [name, value] : found->treatment()->arguments) given.set(name, value);
@@ -148,6 +186,7 @@ void FindingsFeature::treat_at_once(std::size_t index) {
 void FindingsFeature::change(std::size_t index) {
     const Finding* found = finding(index);
     if (found == nullptr || found->treatment() == nullptr) return;
+    end_trial();
     const Remedy treatment = *found->treatment();
     core_.choose(treatment.operation, step_for(treatment.operation));
     for (const auto& [name, value] : treatment.arguments) core_.set_field(name, value);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -39,8 +40,11 @@ public:
     /// The one that is looked at; none: none of them.
     [[nodiscard]] const std::optional<std::size_t>& at() const { return at_; }
 
-    /// Looks at a finding.
+    /// Looks at a finding, and tries its correction in the background.
     void look_at(std::size_t finding);
+
+    /// Why the correction of a finding is refused, once it has been tried; null: it is not.
+    [[nodiscard]] const std::string* refusal(std::size_t finding) const;
 
     /// Looks at the next finding that is listed, round and round; back with -1.
     void go(int steps);
@@ -68,7 +72,9 @@ public:
 
     [[nodiscard]] bool update() override;
 
-    [[nodiscard]] bool pending() const override { return search_.pending() || storing_.pending(); }
+    [[nodiscard]] bool pending() const override {
+        return search_.pending() || storing_.pending() || trial_.pending();
+    }
 
     void keys(PanelContext& context) override;
 
@@ -84,6 +90,8 @@ private:
 
     void forget();
     void judge();
+    void try_correction(std::size_t index);
+    void end_trial();
     /// \return true if findings of another model were dropped
     bool drop_stale();
     [[nodiscard]] const Finding* finding(std::size_t index) const;
@@ -94,10 +102,12 @@ private:
     Core& core_;
     Task<Found> search_;
     Task<std::vector<Dismissal>> storing_;
-    std::shared_ptr<const Positions> of_;  ///< the surface that was searched last
+    Task<std::string> trial_;  ///< of the correction of the finding that is looked at
+    std::map<std::size_t, std::string> refusals_;  ///< by finding; empty: it is not refused
+    std::shared_ptr<const Positions> of_;          ///< the surface that was searched last
     Found found_;
     std::optional<JudgedFindings> findings_;
-    std::optional<std::size_t> at_, asked_;
+    std::optional<std::size_t> at_, asked_, tried_;
     bool unfolded_ = false;
     int tour_ = 0;  ///< steps to be made when the findings are known
 };

@@ -37,6 +37,11 @@ std::string treatment_help(const Finding& finding) {
     return words;
 }
 
+bool is_treatable(const PanelContext& c, const FindingsFeature& feature, std::size_t i) {
+    return feature.findings()->open[i].treatment() != nullptr && feature.refusal(i) == nullptr &&
+           c.core.document.can(RequestKind::Edit);
+}
+
 /// What may be anatomy is kept, or corrected after a look at the preview.
 void draw_answers(PanelContext& c, FindingsFeature& feature, const Finding& finding,
                   std::size_t i) {
@@ -57,7 +62,7 @@ void draw_answers(PanelContext& c, FindingsFeature& feature, const Finding& find
 void draw_corrections(PanelContext& c, FindingsFeature& feature, const Finding& finding,
                       std::size_t i) {
     const std::string number = std::to_string(i), help = treatment_help(finding);
-    const bool treatable = finding.treatment() != nullptr && c.core.document.can(RequestKind::Edit);
+    const bool treatable = is_treatable(c, feature, i);
     if (button(c.ui, "findings.apply." + number, "Apply correction",
                {.enabled = treatable, .help = "Run at once: " + help}))
         feature.treat_at_once(i);
@@ -114,6 +119,11 @@ void draw_finding(PanelContext& c, FindingsFeature& feature, std::size_t i) {
     else
         draw_corrections(c, feature, finding, i);
     draw_readings(c, finding);
+    if (const std::string* why = feature.refusal(i)) {
+        ImGui::SetCursorPosX(ui.grid(6));
+        clipped_text(ui, "Cannot be corrected: " + *why, ui.theme.warning,
+                     ImGui::GetContentRegionAvail().x - ui.grid(1));
+    }
     if (feature.asked() == i) draw_reason(c, feature);
 }
 
