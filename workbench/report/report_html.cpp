@@ -265,7 +265,7 @@ Json findings(const Json& report, bool folded) {
                             {"certainty", certainty_text(finding)},
                             {"treatment", readings(finding).empty()
                                               ? treatment_text(part_of(finding, "operation"))
-                                              : "-"}});
+                                              : "a question"}});
     return list;
 }
 
