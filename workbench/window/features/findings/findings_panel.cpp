@@ -19,8 +19,8 @@ namespace vesselbench {
 
 namespace {
 
-constexpr float kTitle = 16.0F;    ///< [em]
-constexpr float kButtons = 21.0F;  ///< room for those of a row [em]
+constexpr float kTitle = 14.5F;    ///< [em]
+constexpr float kButtons = 17.0F;  ///< room for those of a row [em]
 
 /// Certainty and what was measured.
 std::string evidence_text(const Finding& finding) {
