@@ -170,8 +170,9 @@ SCENARIO("A correction that is refused is not offered", "[window][findings]") {
     REQUIRE(shell->click_item("findings.look.0"));
     REQUIRE(shell->run_until([&] { return findings_of(*shell).refusal(0) != nullptr; }, 60s));
     CHECK_THAT(*findings_of(*shell).refusal(0), Catch::Matchers::Contains("nearly closed"));
-    CHECK(shell->run_until([&] { return !shell->is_enabled("findings.change.0"); }, 10s));
-    CHECK(shell->is_enabled("findings.keep.0"));
+    const auto& items = shell->app().ui().items();
+    CHECK(shell->run_until([&] { return !items.at("findings.change.0").enabled; }, 10s));
+    CHECK(items.at("findings.keep.0").enabled);
 }
 
 SCENARIO("Findings that are more likely wrong than right are unfolded by a click",

@@ -25,10 +25,12 @@
 #include "workbench/findings/stated_ends.h"
 #include "workbench/findings/treatment.h"
 #include "workbench/operations/table.h"
+#include "workbench/review/finding_items.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;
 using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
 using Json = nlohmann::ordered_json;
 
 namespace {
@@ -255,6 +257,23 @@ SCENARIO("What is more likely wrong than right is folded", "[workbench][findings
     CHECK(listed_count(std::span(findings).last(1)) == 0);
     CHECK(folded_words(17) == "17 more below 50 %");
     CHECK(folded_words(17, false) == "17 below 50 %");
+}
+
+SCENARIO("The review's queue folds findings that are more likely wrong than right",
+         "[workbench][findings]") {
+    LogEntry last;
+    last.edit.edit.id = 7;
+    last.result = std::make_shared<const ResultRecord>();
+    std::vector<Finding> findings(2, bump_at({1, 2, 3}, 1.0));
+    findings[1].certainty = 0.2;
+    const auto items = finding_items(findings, {last});
+    REQUIRE(items.size() == 2);
+    CHECK_FALSE(items[0].folded);
+    CHECK(items[1].folded);
+    CHECK_THAT(items[1].why, StartsWith("20 % that the wall rises there"));
+    const Json queue = queue_json(items);
+    CHECK_FALSE(queue[0].contains("folded"));
+    CHECK(queue[1]["folded"] == true);
 }
 
 SCENARIO("What belongs to the vessel is decided in step Branches", "[workbench][findings]") {
@@ -514,8 +533,14 @@ SCENARIO("A question is kept with a word, and nothing removes it unanswered",
         write_surface(*scene.surface, folder + "/s.stl");
         const std::string project = folder + "/p.vbench";
         REQUIRE(run({"new", project, folder + "/s.stl", "--units", "mm"}).exit_code == 0);
-        const std::string id = id_of(findings_in(project), "stub");
+        const Json found = findings_in(project);
+        const std::string id = id_of(found, "stub");
         REQUIRE_FALSE(id.empty());
+        for (const Json& finding : found["findings"]) {
+            CHECK(finding["certain_of"].is_string());
+            CHECK(finding["readings"].empty() == (finding["kind"] != "stub"));
+            for (const Json& reading : finding["readings"]) CHECK(reading["odds"].is_number());
+        }
         return std::pair(project, id);
     });
     const auto& [project, id] = beginning.again();

@@ -54,7 +54,7 @@ void draw_answers(PanelContext& c, FindingsFeature& feature, const Finding& find
     ImGui::SameLine(0, c.ui.grid(0.5F));
     if (button(c.ui, "findings.change." + number,
                "It is: " + artefact_reading(finding)->name + "...",
-               {.enabled = finding.treatment() != nullptr && c.core.document.can(RequestKind::Edit),
+               {.enabled = is_treatable(c, feature, i),
                 .help = "Open the form, with a preview: " + treatment_help(finding)}))
         feature.change(i);
 }
