@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Calls faults planted into phantoms, and whatever the forest's cases have, and compares the calls with the truth.
 
-  scripts/repairs_findings.py [--seeds A-B] [--forest A,B,...] [--quick] [--out FOLDER] [--program FILE]
+  scripts/repairs_findings.py [--seeds A-B] [--clean] [--forest A,B,...] [--quick] [--out FOLDER] [--program FILE]
 
 A seed makes a furcation with voxels of 0.4 mm, noise and blur, and plants one fault, or none: steps of thick slices, a
 bump, a dent, a stub, a bridge between two vessels, two walls nearly in contact, a piece apart, threads in place of an end,
@@ -28,6 +28,7 @@ SAME = {"bump": {"bump", "stub"}, "stub": {"stub", "bump"}, "handle": {"handle",
         "contact": {"contact", "handle"}, "frayed-end": {"frayed-end", "stub"}}
 BINS = [(0.0, 0.3), (0.3, 0.5), (0.5, 0.8), (0.8, 1.01)]
 SURE = 0.8
+LISTED = 0.5  # less is folded
 QUICK = range(1, 13)
 REPORTED = range(101, 161)
 FOREST = [101, 103, 105, 106, 108, 110, 116, 121, 130, 135, 136, 140, 149, 150]  # surfaces of its second half
@@ -317,9 +318,25 @@ def by_kind(planted, calls):
     return common.table(["planted", "called at least 80 % sure", "of calls of this kind at least 80 % sure, right"], rows)
 
 
+def clean_rates(clean):
+    """What is found on models without a fault, by kind; `clean` has (certainty, kind) of the calls on each."""
+    rows = []
+    for kind in sorted({kind for calls in clean for _, kind in calls}):
+        mine = [[c for c, k in calls if k == kind] for calls in clean]
+        rows.append([kind, sum(map(len, mine)), sum(c >= LISTED for calls in mine for c in calls),
+                     sum(c >= SURE for calls in mine for c in calls),
+                     share(sum(any(c >= LISTED for c in calls) for calls in mine), len(clean))])
+    rows.append(["all", sum(map(len, clean)), sum(c >= LISTED for calls in clean for c, _ in calls),
+                 sum(c >= SURE for calls in clean for c, _ in calls),
+                 share(sum(any(c >= LISTED for c, _ in calls) for calls in clean), len(clean))])
+    return common.table([f"on {len(clean)} clean models", "findings", "50 % certain or more: listed", "80 % or more",
+                         "models with one that is listed"], rows)
+
+
 def measured(seeds, forest, folder):
-    """Planted faults and whether they were called sure; calls on the phantoms; calls on the forest; failures."""
-    planted, calls, failures = [], [], []
+    """Planted faults and whether they were called sure; calls on the phantoms; calls on the forest; failures; calls on the
+    clean phantoms."""
+    planted, calls, failures, clean = [], [], [], []
     for seed in seeds:
         try:
             kind, place, size, found = called(seed, folder)
@@ -329,6 +346,8 @@ def measured(seeds, forest, folder):
             continue
         right = [(f["certainty"], is_right(f, kind, place, size), f["kind"]) for f in found]
         calls += right
+        if kind == "none":
+            clean.append([(f["certainty"], f["kind"]) for f in found])
         planted.append((kind, any(c >= SURE and r for c, r, _ in right)))
         calls_here = [(f"{f['kind']} {f['certainty']:.2f}", r[1]) for f, r in zip(found, right)]
         print(seed, kind, planted[-1][1], calls_here[:8], flush=True)
@@ -337,7 +356,7 @@ def measured(seeds, forest, folder):
         found = forest_calls(seed, folder)
         trees += found
         print("forest", seed, [(kind, round(c, 2), r) for c, r, kind in found if c >= 0.5][:12], flush=True)
-    return planted, calls, trees, failures
+    return planted, calls, trees, failures, clean
 
 
 def section(tool, quick):
@@ -348,7 +367,7 @@ def section(tool, quick):
     return lines_of(*measured(QUICK if quick else REPORTED, FOREST[:2] if quick else FOREST, folder))
 
 
-def lines_of(planted, calls, trees, failures):
+def lines_of(planted, calls, trees, failures, clean):
     faults = [sure for kind, sure in planted if kind != "none"]
     sure = [call for call in calls + trees if call[0] >= SURE]
     goals = common.table(["goal", "measured"],
@@ -360,6 +379,8 @@ def lines_of(planted, calls, trees, failures):
              "fault or none, and surfaces of the forest. A call is right if it names what was planted, or what the tree has, at",
              "that place.", "", *goals.splitlines(), "", *by_kind(planted, calls).splitlines(), "", "Phantoms:", "",
              *calibration(calls).splitlines(), "", "Forest:", "", *calibration(trees).splitlines()]
+    if clean:
+        lines += ["", "Clean phantoms:", "", *clean_rates(clean).splitlines()]
     return lines + (["", f"{len(failures)} could not be made: " + "; ".join(failures)] if failures else [])
 
 
@@ -367,6 +388,7 @@ def main():
     options = common.parser(__doc__)
     options.add_argument("--seeds", default="", help="A-B")
     options.add_argument("--forest", default="", help="A,B,...; none: no case of it")
+    options.add_argument("--clean", action="store_true", help="only those of the seeds that plant no fault")
     options.add_argument("--quick", action="store_true")
     options.add_argument("--out", default=os.path.join(common.ROOT, "out", "repairs_findings"))
     options.add_argument("--program", default=common.PROGRAM)
@@ -378,7 +400,8 @@ def main():
     first, last = map(int, (arguments.seeds.split("-") * 2)[:2])
     forest = [int(seed) for seed in arguments.forest.split(",") if seed]
     common.PROGRAM = os.path.abspath(arguments.program)
-    print("\n".join(lines_of(*measured(range(first, last + 1), forest, arguments.out))))
+    seeds = [s for s in range(first, last + 1) if not arguments.clean or KINDS[(s - 1) % len(KINDS)] == "none"]
+    print("\n".join(lines_of(*measured(seeds, forest, arguments.out))))
     return 0
 
 

@@ -641,7 +641,8 @@ constexpr CatalogueText kTexts[] = {
      "wide]: no vessel ends there"},
     {"found-contact",
      "two walls are {distance_mm} mm apart, where less than {limit_mm} mm cannot be told from "
-     "vessels that are joined"},
+     "vessels that are joined; on the model they are apart, so that nothing is left to be "
+     "separated: see in the image whether they are one vessel"},
     {"found-thread",
      "the lumen is {width_mm} mm wide, less than half a voxel ({limit_mm} mm): the image hardly "
      "shows it"},
@@ -663,7 +664,28 @@ constexpr CatalogueText kTexts[] = {
      "mm"},
     {"found-stub",
      "a blind branch is {length_mm} mm long beyond the vessel it leaves, {diameter_mm} mm wide "
-     "(its parent {parent_mm} mm): a bump, a sac, or what is left of a vessel"},
+     "(its parent {parent_mm} mm)"},
+    {"reading-necked", "its body is {ratio:%.2g} times as wide as its neck"},
+    {"reading-wide", "it is {percent:%.0f} % as wide as the vessel it leaves"},
+    {"reading-flow-without", "the vessels at its root are in balance without it"},
+    {"reading-long", "it is {ratio:%.2g} times as long as it is wide"},
+    {"reading-even", "it keeps its width: its outer third has {percent:%.0f} % of its inner one's"},
+    {"reading-onwards", "it goes on in a vessel's direction, {angle_deg:%.0f} degrees off"},
+    {"reading-flow-missing", "the vessels at its root are out of balance without it"},
+    {"reading-short", "it reaches out by {percent:%.0f} % of its width only"},
+    {"reading-tapers", "it tapers: its outer third has {percent:%.0f} % of its inner one's width"},
+    {"reading-thin", "it is only {across:%.1f} voxels or edges wide"},
+    {"reading-no-bridge", "no vessel lies between them: {ratio:%.1f} widths"},
+    {"reading-bridge", "a vessel of {ratio:%.1f} widths lies between them"},
+    {"reading-image-agrees",
+     "the image shows the same: a lumen {lumen_mm} mm wide with {contrast_percent:%.0f} % of the "
+     "contrast beside it"},
+    {"reading-contrast-falls",
+     "the image shows a lumen {lumen_mm} mm wide with {contrast_percent:%.0f} % of the contrast "
+     "beside it"},
+    {"reading-at-furcation", "it is {distance_mm} mm from a furcation, where plaques arise"},
+    {"reading-gradual", "the vessel narrows gradually, over {length_mm} mm"},
+    {"reading-shallow", "its depth is {voxels:%.1f} voxels only"},
     {"found-oblique-end",
      "a flat end, {diameter_mm} mm wide, is tilted by {tilt_deg:%.0f} degrees against the vessel's "
      "axis, which is known to within {doubt_deg:%.1f} degrees"},

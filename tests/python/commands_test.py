@@ -146,7 +146,7 @@ class Models(InFolder):
         self.assertEqual((found[0].kind, found[0].evidence.code), ("bump", "found-bump"))
         left = project.dismiss(found[0], "as in the patient")
         self.assertEqual((len(left.findings), left.dismissed[0].reason), (len(found) - 1, "as in the patient"))
-        self.assertEqual(project.accept(left.findings[0]).operation, left.findings[0].operation.name)
+        self.assertEqual(project.treat(left.findings[0]).operation, left.findings[0].operation.name)
 
     def test_a_model_that_is_not_fit_is_refused_with_its_report(self):
         with self.assertRaisesRegex(vesselbench.ModelRefused, "too coarse for the vessel") as caught:

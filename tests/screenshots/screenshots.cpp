@@ -340,6 +340,10 @@ void looks(Photographer& p) {
     p.click("tab.messages");
     p.rest_mouse();
     p.take("messages");
+    p.click("tab.findings");
+    p.wait();
+    p.rest_mouse();
+    p.take("findings");
     p.click("tab.history");
 }
 

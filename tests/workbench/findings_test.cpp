@@ -11,19 +11,26 @@
 #include "geometry/image/extract_surface.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/plain_name.h"
+#include "geometry/kernel/wording.h"
 #include "geometry/phantoms/phantom.h"
+#include "geometry/vessel/centerlines/centerlines.h"
+#include "geometry/vessel/openings/openings.h"
 #include "tests/support/beginning.h"
 #include "tests/support/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
 #include "workbench/findings/detectors.h"
 #include "workbench/findings/find_findings.h"
+#include "workbench/findings/question.h"
+#include "workbench/findings/stated_ends.h"
 #include "workbench/findings/treatment.h"
 #include "workbench/operations/table.h"
+#include "workbench/review/finding_items.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;
 using Catch::Matchers::Contains;
+using Catch::Matchers::StartsWith;
 using Json = nlohmann::ordered_json;
 
 namespace {
@@ -90,6 +97,15 @@ Surface tube_with_bump() {
     });
 }
 
+/// A tube that narrows in its middle. \param depth half of the share of the radius that is missing
+Surface narrowed_tube(double depth) {
+    return mapped(closed_tube(2.0, 40.0, 32, 160), [depth](const Vec3& p) {
+        const double x = std::min(1.0, std::abs(p.z() - 20.0) / 5.0);
+        const double width = 1.0 - depth * (1.0 + std::cos(std::numbers::pi * x));
+        return Vec3(width * p.x(), width * p.y(), p.z());
+    });
+}
+
 ProgramRun run(const std::vector<std::string>& arguments) {
     return run_program(program_path(), arguments);
 }
@@ -135,15 +151,14 @@ SCENARIO("On a sound vessel nothing is called sure", "[workbench][findings]") {
 }
 
 SCENARIO("A narrowing is found, with the operation that widens it", "[workbench][findings]") {
-    const Scene scene = scene_of(mapped(closed_tube(2.0, 40.0, 32, 160), [](const Vec3& p) {
-        const double x = std::min(1.0, std::abs(p.z() - 20.0) / 5.0);
-        const double width = 1.0 - 0.2 * (1.0 + std::cos(std::numbers::pi * x));
-        return Vec3(width * p.x(), width * p.y(), p.z());
-    }));
+    const Scene scene = scene_of(narrowed_tube(0.2));
     check_found(scene, "narrowing", Vec3(0, 0, 20), 2.0);
     const Finding found = of_kind(find_findings(scene), "narrowing")[0];
     REQUIRE(found.treatment() != nullptr);
     CHECK(found.treatment()->operation == "correct-narrowing");
+    CHECK(title_of(found) == "Narrowing: stenosis or artefact?");
+    CHECK_THAT(certainty_words(found), Contains("% that the surface is narrower than beside it"));
+    CHECK(found.readings.front().anatomy);
     CHECK(of_kind(find_findings(scene_of(closed_tube(2.0, 40.0, 32, 160))), "narrowing").empty());
 }
 
@@ -161,6 +176,116 @@ SCENARIO("Faults of the image are found where they are", "[workbench][findings]"
         "detached", {-7, 0, 0}, 0.5);
 }
 
+SCENARIO("A blind branch is a question, with the odds that decide the vessel ends",
+         "[workbench][findings]") {
+    const Scene scene = scene_of(vessel_with(
+        {vessel("neck", {0.5, 1, 0}, {-4.4, 1, 0}, 1.3),
+         {.name = "dome", .shape = SphereShape{.centre = Vec3(-4.4, 1, 0), .radius = 2.6}}}));
+    const auto found = of_kind(find_findings(scene), "stub");
+    REQUIRE_FALSE(found.empty());
+    const Finding& dome = found[0];
+    CAPTURE(odds_words(dome));
+    REQUIRE(dome.asks());
+    CHECK(dome.readings.front().key == "sac");
+    CHECK_THAT(title_of(dome), Contains("ac (aneurysm?)") && Contains("stub"));
+    CHECK_THAT(certainty_words(dome), Contains("% that a branch ends blind and short"));
+    CHECK_THAT(reading_words(dome.readings.front()), Contains("as wide as its neck"));
+    double sum = 0.0;
+    for (const Reading& reading : dome.readings) sum += reading.odds.value_or(0.0);
+    CHECK(sum == Approx(1.0));
+    THEN("a plan of the openings states the same odds") {
+        const Surface& surface = *scene.surface;
+        const OpeningPlan plan = plan_openings(surface, *centerlines_of(surface));
+        const auto end = std::ranges::min_element(
+            plan.ends, {}, [&](const EndRecord& e) { return (e.place - dome.place).norm(); });
+        REQUIRE(end->verdict);
+        CHECK(dome.readings.front().odds == Approx(end->verdict->odds.sac));
+    }
+    THEN("odds that were stated when the ends were decided are stated again") {
+        const std::vector<StatedEnd> stated = {{.place = dome.place,
+                                                .diameter = 3.0,
+                                                .odds = {.opening = 0.1, .sac = 0.7, .bump = 0.2}}};
+        const auto again = of_kind(find_findings(scene, stated), "stub");
+        CHECK(odds_words(again[0]) == "sac (aneurysm?) 70 %, stub 20 %, vessel 10 %");
+    }
+}
+
+SCENARIO("Only the artefact of a question is treated", "[workbench][findings]") {
+    Finding question = bump_at({1, 2, 3}, 1.0);
+    CHECK_NOTHROW(require_answer(question, ""));
+    CHECK(title_of(question) == "Bump");
+    question.kind = "stub";
+    question.readings = {{.key = "sac", .name = "sac (aneurysm?)", .anatomy = true, .odds = 0.88},
+                         {.key = "stub", .name = "stub", .odds = 0.1},
+                         {.key = "vessel", .name = "vessel", .anatomy = true, .odds = 0.02}};
+    CHECK(title_of(question) == "Sac (aneurysm?) or stub?");
+    CHECK(kept_reason(question) == "kept: sac (aneurysm?) 88 %, stub 10 %, vessel 2 %");
+    CHECK_NOTHROW(require_answer(question, "stub"));
+    for (const char* answer : {"", "sac", "vessel", "tumour"}) {
+        CAPTURE(answer);
+        CHECK_THROWS_AS(require_answer(question, answer), UsageError);
+    }
+}
+
+SCENARIO("What the ends were taken for is read from the edit that decided them",
+         "[workbench][findings]") {
+    const auto entry = [](const char* report) {
+        LogEntry made;
+        ResultRecord result;
+        result.report = report;
+        made.result = std::make_shared<const ResultRecord>(std::move(result));
+        return made;
+    };
+    const auto stated = stated_ends(
+        {entry("{}"), entry("broken"), entry(R"({"ends": 3})"), LogEntry{},
+         entry(R"({"ends": [{"place_mm": [1, 2, 3], "odds": {"vessel_mm": 2.0, "opening": 0.1,
+                             "sac": 0.8, "bump": 0.1}},
+                            {"place_mm": [1, 2, 9], "odds": null},
+                            {"place_mm": ["x", 2, 9], "odds": {}}, 7]})")});
+    REQUIRE(stated.size() == 1);
+    CHECK(stated[0].odds.sac == 0.8);
+    CHECK(stated_at(stated, {1, 2, 4.9}, 2.5) == &stated[0]);
+    CHECK(stated_at(stated, {1, 2, 5.1}, 2.5) == nullptr);
+    CHECK(stated_at(stated, {1, 2, 4.9}, 0.9) == nullptr);
+}
+
+SCENARIO("What is more likely wrong than right is folded", "[workbench][findings]") {
+    std::vector<Finding> findings(3, bump_at({1, 2, 3}, 1.0));
+    findings[1].certainty = 0.5;
+    findings[2].certainty = 0.49;
+    CHECK(listed_count(findings) == 2);
+    CHECK(listed_count(std::span(findings).last(1)) == 0);
+    CHECK(folded_words(17) == "17 more below 50 %");
+    CHECK(folded_words(17, false) == "17 below 50 %");
+}
+
+SCENARIO("The review's queue folds findings that are more likely wrong than right",
+         "[workbench][findings]") {
+    LogEntry last;
+    last.edit.edit.id = 7;
+    last.result = std::make_shared<const ResultRecord>();
+    std::vector<Finding> findings(2, bump_at({1, 2, 3}, 1.0));
+    findings[1].certainty = 0.2;
+    const auto items = finding_items(findings, {last});
+    REQUIRE(items.size() == 2);
+    CHECK_FALSE(items[0].folded);
+    CHECK(items[1].folded);
+    CHECK_THAT(items[1].why, StartsWith("20 % that the wall rises there"));
+    const Json queue = queue_json(items);
+    CHECK_FALSE(queue[0].contains("folded"));
+    CHECK(queue[1]["folded"] == true);
+}
+
+SCENARIO("What belongs to the vessel is decided in step Branches", "[workbench][findings]") {
+    LogEntry last;
+    last.edit.place.step = Step::Product;
+    const auto step = [&](const char* operation) {
+        return treatment_step(find_operation(operation), {last});
+    };
+    CHECK(step("remove-branch") == Step::Branches);
+    CHECK(step("brush-smooth") > Step::Branches);
+}
+
 SCENARIO("A bridge between vessels is a handle", "[workbench][findings]") {
     PhantomDescription phantom = vessel_with({});
     phantom.parts = {vessel("trunk", {0, 0, -12}, {0, 0, 0}, 2.0),
@@ -172,6 +297,7 @@ SCENARIO("A bridge between vessels is a handle", "[workbench][findings]") {
     CHECK(std::abs(found[0].place.z() - 7.2) < 2.0);
     REQUIRE(found[0].treatment());
     CHECK(found[0].treatment()->operation == "separate");
+    CHECK_THAT(title_of(found[0]), Contains("ring of vessels") && Contains("vessels that touch"));
 }
 
 SCENARIO("Faults of the triangles are found", "[workbench][findings]") {
@@ -400,11 +526,85 @@ SCENARIO("A finding is dismissed with a reason that stays in the project's recor
     }
 }
 
-SCENARIO("An accepted finding becomes an edit that says why", "[workbench][findings]") {
+SCENARIO("A question is kept with a word, and nothing removes it unanswered",
+         "[workbench][findings]") {
+    static const Beginning beginning([](const std::string& folder) {
+        const Scene scene = scene_of(vessel_with({vessel("stub", {0.5, 1, 0}, {-3.5, 1, 0}, 0.8)}));
+        write_surface(*scene.surface, folder + "/s.stl");
+        const std::string project = folder + "/p.vbench";
+        REQUIRE(run({"new", project, folder + "/s.stl", "--units", "mm"}).exit_code == 0);
+        const Json found = findings_in(project);
+        const std::string id = id_of(found, "stub");
+        REQUIRE_FALSE(id.empty());
+        for (const Json& finding : found["findings"]) {
+            CHECK(finding["certain_of"].is_string());
+            CHECK(finding["readings"].empty() == (finding["kind"] != "stub"));
+            for (const Json& reading : finding["readings"]) CHECK(reading["odds"].is_number());
+        }
+        return std::pair(project, id);
+    });
+    const auto& [project, id] = beginning.again();
+    const Json before = Json::parse(run({"log", project, "--json"}).out);
+    const std::string listed = run({"findings", project}).out;
+    CHECK_THAT(listed, Contains("sac (aneurysm?)") && Contains("--keep " + id) &&
+                           Contains("--apply " + id + " --as stub"));
+    WHEN("it is applied without an answer, or as anatomy") {
+        for (const std::vector<std::string>& answer :
+             {std::vector<std::string>{}, {"--as", "sac"}, {"--as", "vessel"}}) {
+            std::vector<std::string> words = {"findings", project, "--apply", id};
+            words.insert(words.end(), answer.begin(), answer.end());
+            const ProgramRun refused = run(words);
+            CHECK(refused.exit_code == 2);
+            CHECK_THAT(refused.err, Contains("anatomy"));
+        }
+        THEN("the model stays") {
+            CHECK(Json::parse(run({"log", project, "--json"}).out) == before);
+        }
+    }
+    WHEN("it is kept") {
+        REQUIRE(run({"findings", project, "--keep", id}).exit_code == 0);
+        const Json now = findings_in(project);
+        CHECK(id_of(now, "stub").empty());
+        CHECK_THAT(now["dismissed"][0]["reason"].get<std::string>(),
+                   Contains("kept: ") && Contains("sac (aneurysm?)"));
+    }
+    WHEN("it is answered as a stub") {
+        const ProgramRun made = run({"findings", project, "--apply", id, "--as", "stub", "--json"});
+        INFO(made.err);
+        REQUIRE(made.exit_code == 0);
+        const Json edit = Json::parse(made.out);
+        CHECK(edit["operation"] == "remove-branch");
+        CHECK(edit["step"] == "branches");
+        CHECK_THAT(edit["note"].get<std::string>(), Contains("Stub (of: "));
+    }
+}
+
+SCENARIO("Corrections are tried before they are offered", "[workbench][findings]") {
+    const std::string folder = temporary_folder();
+    for (const double depth : {0.2, 0.4}) {  // the second one is nearly closed
+        CAPTURE(depth);
+        const std::string name = folder + "/" + formatted(depth);
+        write_surface(narrowed_tube(depth), name + ".stl");
+        const std::string project = name + ".vbench";
+        REQUIRE(run({"new", project, name + ".stl", "--units", "mm"}).exit_code == 0);
+        const Json tried = Json::parse(run({"findings", project, "--try", "--json"}).out);
+        REQUIRE_FALSE(tried["findings"].empty());
+        const Json& narrowing = tried["findings"][0];
+        CHECK(narrowing["kind"] == "narrowing");
+        CHECK(narrowing["refusal"].is_string() == (depth > 0.3));
+        const std::string listed = run({"findings", project, "--try"}).out;
+        CHECK((listed.find("--as artefact") == std::string::npos) == (depth > 0.3));
+        CHECK((listed.find("cannot be treated: the vessel is nearly closed") !=
+               std::string::npos) == (depth > 0.3));
+        CHECK_FALSE(findings_in(project)["findings"][0].contains("refusal"));
+    }
+}
+
+SCENARIO("A finding that is applied becomes an edit that says why", "[workbench][findings]") {
     const std::string project = bumpy_project();
     const std::string id = id_of(findings_in(project), "bump");
     REQUIRE_FALSE(id.empty());
-    const ProgramRun accepted = run({"findings", project, "--accept", id, "--json"});
+    const ProgramRun accepted = run({"findings", project, "--apply", id, "--json"});
     INFO(accepted.err);
     REQUIRE(accepted.exit_code == 0);
     const Json edit = Json::parse(accepted.out);
@@ -424,9 +624,11 @@ SCENARIO("The findings command refuses what makes no sense", "[workbench][findin
     refused({"--dismiss", "bump@1,2,3"}, "--reason");
     refused({"--reason", "because"}, "--dismiss");
     refused({"--dismiss", "bump@1,2,3", "--reason", "because"}, "no finding");
-    refused({"--accept", "bump"}, "is no finding");
-    refused({"--accept", "bump@1,2,3", "--dismiss", "bump@1,2,3"}, "excludes");
+    refused({"--apply", "bump"}, "is no finding");
+    refused({"--apply", "bump@1,2,3", "--dismiss", "bump@1,2,3"}, "excludes");
+    refused({"--as", "stub"}, "--apply");
     const std::string id = id_of(findings_in(project), "bump");
+    refused({"--keep", id}, "--reason");
     refused({"--dismiss", id, "--reason", " \n"}, "reason");
     refused({"--dismiss", id, "--reason", std::string(3000, 'x')}, "longer");
     refused({"--dismiss", id, "--reason", "\xff\xfe"}, "UTF-8");

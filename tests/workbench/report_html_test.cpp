@@ -47,7 +47,13 @@ SCENARIO("The report's page matches its document", "[workbench][report]") {
         "findings": [{"id": "bump@1,2,3", "title": "Bump", "certainty": 0.87,
                       "text": "the wall rises <here>",
                       "operation": {"name": "brush-smooth", "arguments": {"at": "1,2,3"}}},
+                     {"id": "stub@4,5,6", "title": "Sac (aneurysm?) or stub?", "certainty": 0.96,
+                      "certain_of": "a branch ends blind", "text": "a blind branch",
+                      "readings": [{"key": "sac", "text": "sac (aneurysm?) 88 %: its <neck>"}],
+                      "operation": {"name": "remove-branch", "arguments": {"tip": "4,5,6"}}},
                      {"id": "handle@1,2,3", "title": "Handle", "certainty": 0.5, "text": "a ring",
+                      "operation": null},
+                     {"id": "dent@1,2,3", "title": "Dent", "certainty": 0.49, "text": "a hollow",
                       "operation": null}],
         "distance_from_source": {"mean_mm": 0.125, "largest_mm": 27.5},
         "volume_mesh": {"cells": 98765},
@@ -66,6 +72,9 @@ SCENARIO("The report's page matches its document", "[workbench][report]") {
                              "the wall rises &lt;here&gt;",
                              "87 %",
                              "brush-smooth at=1,2,3",
+                             "96 % that a branch ends blind",
+                             "sac (aneurysm?) 88 %: its &lt;neck&gt;",
+                             "<details><summary>1 more below 50 %</summary>",
                              "lambda=0.5",
                              "-5 %",
                              "98765",
@@ -91,6 +100,11 @@ SCENARIO("The report's page matches its document", "[workbench][report]") {
                              "data:image/png;base64,iVBORw==",
                              "surface.vtp"})
         CHECK_THAT(page, Contains(part));
+    THEN("what is unlikely is folded, and what may be anatomy is not offered for removal") {
+        CHECK(page.find("a ring") < page.find("<details>"));
+        CHECK(page.find("a hollow") > page.find("<details>"));
+        CHECK(page.find("remove-branch") == std::string::npos);
+    }
     CHECK(page.find("src=\"http") == std::string::npos);
     CHECK(page.find("<vessel>") == std::string::npos);
     CHECK(page.find("Absent") == std::string::npos);

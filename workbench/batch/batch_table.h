@@ -28,7 +28,7 @@ struct TableRow {
     std::vector<std::string> warnings;       ///< with their operations
     std::vector<std::string> warning_codes;  ///< each once
     std::vector<std::string> not_met;        ///< requirements
-    std::size_t findings = 0;                ///< of what looks wrong
+    std::size_t findings = 0;                ///< of what looks wrong, 50 % certain or more
     nlohmann::ordered_json figures;          ///< by TableFigure::name; null: it has none
     std::optional<CaseFailure> failure;
     std::string thumbnail;  ///< a PNG file's bytes; empty: none

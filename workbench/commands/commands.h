@@ -309,14 +309,18 @@ void review_project(const ReviewArguments& arguments, const Progress& progress);
 struct FindingsArguments {
     std::string project;
     std::string variant;    ///< empty: variant_of()
-    std::string accepted;   ///< id of the finding whose operation runs; empty: none
-    std::string dismissed;  ///< id; empty: none
-    std::string reason;     ///< why it is dismissed
+    std::string applied;    ///< id of the finding whose operation runs; empty: none
+    std::string taken_as;   ///< reading that it is applied for; empty: it is no question
+    std::string kept;       ///< id of one that is answered with "keep"; empty: none
+    std::string dismissed;  ///< the same, with a reason; empty: none
+    std::string reason;     ///< why it is kept
     std::string restored;   ///< id of the finding whose dismissal is taken back; empty: none
+    bool all = false;       ///< lists the less certain ones as well
+    bool tried = false;     ///< says which operations would be refused
     bool json = false;
 };
 
-/// Lists what looks like an artefact on a project's model, or accepts, dismisses or restores one.
+/// Lists what looks like an artefact on a project's model, or treats, keeps or restores one.
 void show_findings(const FindingsArguments& arguments, const Progress& progress);
 
 struct WindowOptions {

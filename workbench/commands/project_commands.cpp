@@ -226,18 +226,33 @@ void add_findings(CommandLine& line) {
     const auto add = [&](const char* name, std::string& value, const char* help) {
         return command.add_option(name, value, help)->type_name("FINDING");
     };
-    CLI::Option* accept =
-        add("--accept", options->accepted, "Run the operation that treats a finding, as an edit");
-    CLI::Option* dismiss = add("--dismiss", options->dismissed,
-                               "Judge a finding as no artefact: it is no longer listed");
-    CLI::Option* restore =
-        add("--restore", options->restored, "Take back that a finding was dismissed");
-    accept->excludes(dismiss)->excludes(restore);
-    dismiss->excludes(restore);
+    const std::vector<CLI::Option*> acts = {
+        add("--keep", options->kept,
+            "Leave what was found as it is: it is no longer listed. Without --reason, what a\n"
+            "question asked becomes the reason"),
+        add("--apply", options->applied,
+            "Run the operation that treats a finding, as an edit; one that may be anatomy\n"
+            "needs --as"),
+        add("--dismiss", options->dismissed, "As --keep, with a --reason"),
+        add("--restore", options->restored, "Take back that a finding was kept"),
+        add("--accept", options->applied, "As --apply")->group("")};
+    for (CLI::Option* act : acts)
+        for (CLI::Option* other : acts)
+            if (act != other) act->excludes(other);
+    command
+        .add_option("--as", options->taken_as,
+                    "What a finding that may be anatomy is, by the words of the list: stub,\n"
+                    "artefact, contact or debris")
+        ->type_name("READING");
     command
         .add_option("--reason", options->reason,
-                    "Why it is dismissed, in your own words; it stays in the project's record")
+                    "Why it is kept, in your own words; it stays in the project's record")
         ->type_name("WORDS");
+    command.add_flag("--all", options->all,
+                     "List also what is less than 50 % certain; --json always does");
+    command.add_flag(
+        "--try", options->tried,
+        "Try the operation of each that is listed, and say which are refused, and why");
     add_json(command, options->json);
 }
 

@@ -10,6 +10,7 @@
 #include "workbench/case/diagnostic_words.h"
 #include "workbench/case/point_json.h"
 #include "workbench/findings/detectors.h"
+#include "workbench/findings/question.h"
 
 namespace vesselbench {
 
@@ -49,6 +50,18 @@ Json treatment_json(const Finding& finding) {
     return {{"name", treatment->operation}, {"arguments", arguments}};
 }
 
+Json readings_json(const Finding& finding) {
+    Json readings = Json::array();
+    for (const Reading& reading : finding.readings)
+        readings.push_back({{"key", reading.key},
+                            {"name", reading.name},
+                            {"anatomy", reading.anatomy},
+                            {"odds", reading.odds ? Json(*reading.odds) : Json(nullptr)},
+                            {"text", reading_words(reading)},
+                            {"evidence", diagnostics_json(reading.evidence)}});
+    return readings;
+}
+
 Json dismissal_json(const Dismissal& dismissal) {
     return {{"kind", dismissal.kind},     {"place_mm", point_json(dismissal.place)},
             {"size_mm", dismissal.size},  {"reason", dismissal.reason},
@@ -58,8 +71,13 @@ Json dismissal_json(const Dismissal& dismissal) {
 }  // namespace
 
 FindingSearch find_findings(const Scene& scene, const Progress& progress) {
+    return find_findings(scene, {}, progress);
+}
+
+FindingSearch find_findings(const Scene& scene, const std::vector<StatedEnd>& stated,
+                            const Progress& progress) {
     static_cast<void>(surface_of(scene));
-    FindingSubject subject(scene);
+    FindingSubject subject(scene, stated);
     FindingSearch search;
     const std::span<const Detector> all = detectors();
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -97,12 +115,14 @@ std::vector<std::string> not_searched_lines(const std::vector<NotSearched>& not_
 Json finding_json(const Finding& finding) {
     return {{"id", finding.id()},
             {"kind", finding.kind},
-            {"title", title_of_kind(finding.kind)},
+            {"title", title_of(finding)},
             {"certainty", finding.certainty},
+            {"certain_of", certain_of_kind(finding.kind)},
             {"place_mm", point_json(finding.place)},
             {"size_mm", finding.size},
             {"text", worded(finding.evidence)},
             {"evidence", diagnostic_json(finding.evidence)},
+            {"readings", readings_json(finding)},
             {"operation", treatment_json(finding)}};
 }
 

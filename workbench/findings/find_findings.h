@@ -9,6 +9,7 @@
 #include "workbench/case/scene.h"
 #include "workbench/findings/dismissals.h"
 #include "workbench/findings/finding.h"
+#include "workbench/findings/stated_ends.h"
 
 namespace vesselbench {
 
@@ -17,12 +18,17 @@ namespace vesselbench {
 /// said to be not searched. \throw AlgorithmFailure if there is no surface; Cancelled
 [[nodiscard]] FindingSearch find_findings(const Scene& scene, const Progress& progress = {});
 
+/// The same where edits have stated what the ends are: they and the findings state one figure.
+[[nodiscard]] FindingSearch find_findings(const Scene& scene, const std::vector<StatedEnd>& stated,
+                                          const Progress& progress = {});
+
 /// "not looked for: Bump, Dent: the surface ...", a line for each reason.
 [[nodiscard]] std::vector<std::string> not_searched_lines(
     const std::vector<NotSearched>& not_searched);
 
-/// A finding as JSON: id, kind, title, certainty, place_mm, size_mm, evidence, and operation with
-/// its arguments (null: none treats it).
+/// A finding as JSON: id, kind, title, certainty, certain_of (what the certainty is of), place_mm,
+/// size_mm, evidence, readings (key, name, anatomy, odds and evidence of each; empty: no question),
+/// and operation with its arguments (null: none treats it).
 [[nodiscard]] nlohmann::ordered_json finding_json(const Finding& finding);
 
 /// Findings of a model, what was dismissed and what was not looked for: {"findings", "dismissed",

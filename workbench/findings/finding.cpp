@@ -54,6 +54,12 @@ double FindingId::distance(const std::string& of_kind, const Vec3& from, double 
                : std::numeric_limits<double>::infinity();
 }
 
+std::size_t listed_count(std::span<const Finding> findings) {
+    const auto folded = std::ranges::find_if(
+        findings, [](const Finding& finding) { return finding.certainty < kListed; });
+    return static_cast<std::size_t>(folded - findings.begin());
+}
+
 FindingId finding_id_from(const std::string& id) {
     auto found = parsed(id);
     if (!found)

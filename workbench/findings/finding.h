@@ -6,6 +6,7 @@
 
 #include "geometry/kernel/diagnostic.h"
 #include "geometry/kernel/vec3.h"
+#include "workbench/findings/reading.h"
 
 namespace vesselbench {
 
@@ -21,6 +22,11 @@ struct Finding {
     /// What was measured, in words and figures; its first remedy, if it has one, is the operation
     /// that treats it, with arguments.
     Diagnostic evidence;
+    /// What it may be, likeliest first: where anatomy is among it, the finding is a question, and
+    /// nothing treats it before somebody says that it is none. Empty: it is no question.
+    std::vector<Reading> readings = {};
+
+    [[nodiscard]] bool asks() const { return !readings.empty(); }
 
     /// "bump@12.3,4.5,6.7": kind and place, which edits elsewhere leave as they are.
     [[nodiscard]] std::string id() const;
@@ -28,6 +34,13 @@ struct Finding {
     /// Null: no operation treats it.
     [[nodiscard]] const Remedy* treatment() const;
 };
+
+/// Findings of less certainty are not listed unless asked for [-]: they are more often wrong than
+/// right.
+inline constexpr double kListed = 0.5;
+
+/// How many of them are listed: the first ones. \param findings the most certain first
+[[nodiscard]] std::size_t listed_count(std::span<const Finding> findings);
 
 /// What an id says.
 struct FindingId {

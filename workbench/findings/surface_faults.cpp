@@ -71,6 +71,20 @@ Pieces pieces_of(const Surface& surface) {
     return pieces;
 }
 
+/// What is longer than it is wide, and no speck, may be the continuation of a vessel that the image
+/// interrupts. \param area_share of the whole surface's [-]
+std::vector<Reading> piece_readings(const PieceShape& shape, double area_share) {
+    constexpr double kVessel = 2.0;   // length over diameter
+    constexpr double kSpeck = 0.001;  // of the area
+    const double ratio = shape.length / std::max(shape.diameter, 1e-9);
+    if (ratio < kVessel || area_share < kSpeck) return {};
+    return {{.key = "vessel",
+             .name = "part of a vessel",
+             .anatomy = true,
+             .evidence = {{.code = "reading-long", .figures = {{"ratio", ratio}}}}},
+            {.key = "debris", .name = "debris"}};
+}
+
 void sort_by_size(std::vector<Finding>& findings) {
     std::ranges::stable_sort(findings, std::greater{}, &Finding::size);
     if (findings.size() > kMostPlaces) findings.resize(kMostPlaces);
@@ -109,6 +123,7 @@ std::vector<Finding> find_detached_pieces(FindingSubject& subject, const Progres
         ++triangles[pieces.of_triangle[t]];
     }
     const auto largest = static_cast<std::size_t>(std::ranges::max_element(areas) - areas.begin());
+    const double whole = area(surface);
     std::vector<Finding> findings;
     for (const PieceShape& shape :
          piece_shapes(surface.points(), surface.triangles(), pieces.of_triangle, pieces.count)) {
@@ -122,8 +137,9 @@ std::vector<Finding> find_detached_pieces(FindingSubject& subject, const Progres
                           .figures = {{"triangles", triangles[shape.piece]},
                                       {"length_mm", shape.length},
                                       {"diameter_mm", shape.diameter},
-                                      {"area_percent", 100.0 * areas[shape.piece] / area(surface)}},
-                          .remedies = {{.operation = "repair"}}}});
+                                      {"area_percent", 100.0 * areas[shape.piece] / whole}},
+                          .remedies = {{.operation = "repair"}}},
+             .readings = piece_readings(shape, areas[shape.piece] / whole)});
     }
     sort_by_size(findings);
     return findings;

@@ -6,14 +6,28 @@
 #include "geometry/kernel/errors.h"
 #include "workbench/case/argument_texts.h"
 #include "workbench/case/diagnostic_words.h"
+#include "workbench/case/readable_name.h"
 #include "workbench/findings/detectors.h"
+#include "workbench/findings/question.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {
 
+namespace {
+
+GivenArguments given_by(const Remedy& treatment) {
+    const Operation& operation = find_operation(treatment.operation);
+    std::vector<std::string> texts;
+    for (const auto& [name, value] : treatment.arguments) texts.push_back(name + "=" + value);
+    return arguments_from_texts(operation, texts);
+}
+
+}  // namespace
+
 Step treatment_step(const Operation& operation, const std::vector<LogEntry>& log) {
     const Step last = log.empty() ? Step::Source : log.back().edit.place.step;
-    if (operation.usual_step >= last) return operation.usual_step;
+    if (operation.usual_step >= last || operation.usual_step == Step::Branches)
+        return operation.usual_step;
     std::vector<Step> allowed = operation.allowed;
     std::ranges::sort(allowed);
     const auto behind = std::ranges::lower_bound(allowed, last);
@@ -21,21 +35,40 @@ Step treatment_step(const Operation& operation, const std::vector<LogEntry>& log
 }
 
 std::string treatment_note(const Finding& finding) {
-    return title_of_kind(finding.kind) + ": " + worded(finding.evidence);
+    const Reading* artefact = artefact_reading(finding);
+    if (artefact == nullptr) return title_of_kind(finding.kind) + ": " + worded(finding.evidence);
+    return readable_sentence(artefact->name) + " (of: " + odds_words(finding) +
+           "): " + worded(finding.evidence);
 }
 
-LogEntry accept(Session& session, const Finding& finding, const std::string& variant,
-                const Progress& progress) {
+std::string refusal_of(Session& session, const Finding& finding, const std::string& variant,
+                       const Progress& progress) {
+    if (finding.treatment() == nullptr) return "";
+    const Operation& operation = find_operation(finding.treatment()->operation);
+    try {
+        static_cast<void>(session.preview(
+            operation.name, given_by(*finding.treatment()),
+            {.step = treatment_step(operation, session.log(variant)), .variant = variant},
+            progress));
+    } catch (const AlgorithmFailure& failure) {
+        return worded(diagnostics_of(failure).front());
+    } catch (const InvalidInput& failure) {
+        return worded(diagnostics_of(failure).front());
+    }
+    return "";
+}
+
+LogEntry treat(Session& session, const Finding& finding, const std::string& taken_as,
+               const std::string& variant, const Progress& progress) {
+    require_answer(finding, taken_as);
     const Remedy* treatment = finding.treatment();
     if (treatment == nullptr)
         throw DiagnosedFailure({.code = "finding-without-treatment",
                                 .place = finding.place,
                                 .words = {{"finding", finding.id()}}});
-    const Operation& operation = find_operation(treatment->operation);
-    std::vector<std::string> texts;
-    for (const auto& [name, value] : treatment->arguments) texts.push_back(name + "=" + value);
-    return session.apply(arguments_from_texts(operation, texts),
-                         {.step = treatment_step(operation, session.log(variant)),
+    const GivenArguments given = given_by(*treatment);
+    return session.apply(given,
+                         {.step = treatment_step(given.operation(), session.log(variant)),
                           .variant = variant,
                           .note = treatment_note(finding)},
                          progress);

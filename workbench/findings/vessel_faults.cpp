@@ -14,6 +14,7 @@
 #include "geometry/vessel/openings/rim_shape.h"
 #include "geometry/vessel/repair/widen.h"
 #include "meshing/products/print_check.h"
+#include "workbench/findings/branch_readings.h"
 #include "workbench/findings/detectors.h"
 #include "workbench/operations/shared/handle_warnings.h"
 
@@ -39,6 +40,19 @@ double neck_length(const CenterlineGraph& graph, const SurfaceHandle& handle) {
                         parents_exit(graph, nearest->place.branch, branch.start_node) -
                         parents_exit(graph, nearest->place.branch, branch.end_node);
     return std::max(free, 0.0) / handle.width;
+}
+
+/// A ring of the surface is a ring of vessels, or two vessels that the image has joined.
+std::vector<Reading> handle_readings(double touching, double neck, bool measured) {
+    std::vector<Reading> readings = {
+        {.key = "contact", .name = "vessels that touch", .odds = touching},
+        {.key = "ring", .name = "ring of vessels", .anatomy = true, .odds = 1.0 - touching}};
+    if (measured)
+        readings[neck < 1.0 ? 0 : 1].evidence = {
+            {.code = neck < 1.0 ? "reading-no-bridge" : "reading-bridge",
+             .figures = {{"ratio", neck}}}};
+    std::ranges::stable_sort(readings, std::greater{}, &Reading::odds);
+    return readings;
 }
 
 struct FlatEnd {
@@ -83,12 +97,15 @@ std::vector<Finding> find_handles(FindingSubject& subject, const Progress& progr
         Diagnostic evidence = handle_warning(handle);
         const bool artefact = evidence.code == "handle-artefact";
         const double neck = has_lines ? neck_length(*subject.lines(progress).graph, handle) : kEven;
+        const double certainty =
+            artefact ? certainty_of(0.0, kEven, kSure) : certainty_of(neck, kEven, kSure);
         findings.push_back({.kind = "handle",
                             .place = handle.centre,
                             .size = handle.width,
-                            .certainty = artefact ? certainty_of(0.0, kEven, kSure)
-                                                  : certainty_of(neck, kEven, kSure),
-                            .evidence = std::move(evidence)});
+                            .certainty = certainty,
+                            .evidence = std::move(evidence),
+                            .readings = artefact ? std::vector<Reading>{}
+                                                 : handle_readings(certainty, neck, has_lines)});
     }
     return findings;
 }
@@ -149,6 +166,8 @@ std::vector<Finding> find_stubs(FindingSubject& subject, const Progress& progres
         const double bulge =
             std::min(certainty_of(2.0 * branch.length / branch.parent, kEvenRise, kSureRise),
                      certainty_of(branch.diameter / subject.mean_edge(), kEvenWidth, kSureWidth));
+        const auto verdict = subject.verdict_at(branch.tip, progress);
+        if (!verdict && !branch.has_line) continue;  // it is part of another end
         Finding finding{.kind = "stub",
                         .place = branch.tip,
                         .size = std::max(branch.length, 0.5 * branch.diameter),
@@ -156,7 +175,8 @@ std::vector<Finding> find_stubs(FindingSubject& subject, const Progress& progres
                         .evidence = {.code = "found-stub",
                                      .figures = {{"length_mm", branch.length},
                                                  {"diameter_mm", branch.diameter},
-                                                 {"parent_mm", branch.parent}}}};
+                                                 {"parent_mm", branch.parent}}},
+                        .readings = branch_readings(verdict)};
         if (branch.has_line)
             finding.evidence.remedies = {
                 {.operation = "remove-branch",

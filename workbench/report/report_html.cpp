@@ -228,19 +228,44 @@ std::string treatment_text(const Json& operation) {
     return text;
 }
 
-/// What looks wrong on the model, the most certain first.
-Json findings(const Json& report) {
+/// What a finding may be, a line each; none: it is no question.
+Json readings(const Json& finding) {
+    Json lines = Json::array();
+    for (const Json& reading : part_of(finding, "readings"))
+        lines.push_back(shown(part_of(reading, "text")));
+    return lines;
+}
+
+/// "96 % that a branch ends blind and short"
+std::string certainty_text(const Json& finding) {
+    const Json& certainty = part_of(finding, "certainty");
+    if (!certainty.is_number()) return shown(certainty);
+    const std::string share = formatted(100.0 * certainty.get<double>(), "%.0f %%");
+    const Json& of = part_of(finding, "certain_of");
+    return of.is_string() ? share + " that " + shown(of) : share;
+}
+
+/// What is more likely wrong than right is folded.
+bool is_folded(const Json& finding) {
+    constexpr double kListed = 0.5;
+    const Json& certainty = part_of(finding, "certainty");
+    return certainty.is_number() && certainty.get<double>() < kListed;
+}
+
+/// What looks wrong on the model, the most certain first. \param folded those that are, or the
+/// others
+Json findings(const Json& report, bool folded) {
     Json list = Json::array();
-    for (const Json& finding : part_of(report, "findings")) {
-        const Json& certainty = part_of(finding, "certainty");
-        list.push_back({{"title", shown(part_of(finding, "title"))},
-                        {"id", shown(part_of(finding, "id"))},
-                        {"text", shown(part_of(finding, "text"))},
-                        {"certainty", certainty.is_number()
-                                          ? formatted(100.0 * certainty.get<double>(), "%.0f %%")
-                                          : shown(certainty)},
-                        {"treatment", treatment_text(part_of(finding, "operation"))}});
-    }
+    for (const Json& finding : part_of(report, "findings"))
+        if (is_folded(finding) == folded)
+            list.push_back({{"title", shown(part_of(finding, "title"))},
+                            {"id", shown(part_of(finding, "id"))},
+                            {"text", shown(part_of(finding, "text"))},
+                            {"readings", readings(finding)},
+                            {"certainty", certainty_text(finding)},
+                            {"treatment", readings(finding).empty()
+                                              ? treatment_text(part_of(finding, "operation"))
+                                              : "a question"}});
     return list;
 }
 
@@ -331,11 +356,15 @@ std::string report_html(const Json& report, std::span<const ReportPicture> pictu
                  {"requirements", requirements(report)},
                  {"openings", openings(report)},
                  {"ends", ends(report)},
-                 {"findings", findings(report)},
+                 {"findings", findings(report, false)},
+                 {"folded", findings(report, true)},
                  {"sections", sections_of(report, sections)},
                  {"products", texts_of(part_of(report, "products"))}};
     for (const char* list : {"warnings", "findings", "pictures", "requirements", "ends"})
         page[std::string("any_") + list] = !page[list].empty();
+    page["any_folded"] = !page["folded"].empty();
+    page["any_found"] = page["any_findings"].get<bool>() || page["any_folded"].get<bool>();
+    page["folded_count"] = std::to_string(page["folded"].size());
     return rendered_template(report_templates().at("report.html"), page);
 }
 

@@ -7,6 +7,7 @@
 #include "workbench/case/readable_name.h"
 #include "workbench/findings/detectors.h"
 #include "workbench/findings/find_findings.h"
+#include "workbench/findings/question.h"
 
 namespace vesselbench {
 
@@ -21,6 +22,15 @@ const LogEntry* last_run(const std::vector<LogEntry>& log) {
     return last == log.rend() ? nullptr : &*last;
 }
 
+/// Certainty, what was measured, and what it may be.
+std::string why_of(const Finding& finding) {
+    std::string why = certainty_words(finding) + ". " +
+                      readable_sentence(worded(finding.evidence, {.window = true}));
+    for (const Reading& reading : finding.readings)
+        why += ". " + readable_sentence(reading_words(reading, true));
+    return why;
+}
+
 }  // namespace
 
 std::vector<Finding> open_findings(Session& session, const std::vector<LogEntry>& log,
@@ -29,7 +39,7 @@ std::vector<Finding> open_findings(Session& session, const std::vector<LogEntry>
     if (last == nullptr) return {};
     const Scene scene = session.result_scene(last->result->id, progress.part(0.0, 0.1));
     if (!scene.surface || scene.surface->empty()) return {};
-    FindingSearch found = find_findings(scene, progress.part(0.1, 1.0));
+    FindingSearch found = find_findings(scene, stated_ends(log), progress.part(0.1, 1.0));
     const ProjectFile& project = session.project();
     if (project.name().empty()) return found.findings;
     return judged(std::move(found), stored_dismissals(project.folder() / project.name())).open;
@@ -43,12 +53,12 @@ std::vector<QueueItem> finding_items(const std::vector<Finding>& findings,
     for (const Finding& finding : findings)
         items.push_back({.kind = "finding",
                          .edit = last->edit.edit.id,
-                         .title = title_of_kind(finding.kind) +
-                                  formatted(100.0 * finding.certainty, ", %.0f %% sure"),
-                         .why = readable_sentence(worded(finding.evidence, {.window = true})),
+                         .title = title_of(finding),
+                         .why = why_of(finding),
                          .score = kMostScore * finding.certainty,
                          .place = finding.place,
-                         .radius = finding.size});
+                         .radius = finding.size,
+                         .folded = finding.certainty < kListed});
     return items;
 }
 

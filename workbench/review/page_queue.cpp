@@ -160,6 +160,7 @@ nlohmann::ordered_json queue_json(const std::vector<QueueItem>& queue) {
                                       {"score", item.score}};
         if (item.place) row["place"] = {item.place->x(), item.place->y(), item.place->z()};
         if (item.radius) row["radius"] = *item.radius;
+        if (item.folded) row["folded"] = true;
         rows.push_back(std::move(row));
     }
     return rows;

@@ -16,6 +16,7 @@ struct QueueItem {
     double score = 0.0;            ///< larger: earlier
     std::optional<Vec3> place;     ///< [mm]
     std::optional<double> radius;  ///< of the vessel there [mm]
+    bool folded = false;           ///< more likely wrong than right: listed when asked for
 };
 
 /// What to look at first: edits that no longer apply, changes that are large beside the vessel's
@@ -25,8 +26,8 @@ struct QueueItem {
                                                   const PageModels& models,
                                                   const OperationLookup& find);
 
-/// A list of {"kind", "edit", "title", "why", "score", "place", "radius"}; the last two where
-/// known.
+/// A list of {"kind", "edit", "title", "why", "score", "place", "radius", "folded"}; place and
+/// radius where known, folded where it is.
 [[nodiscard]] nlohmann::ordered_json queue_json(const std::vector<QueueItem>& queue);
 
 }  // namespace vesselbench

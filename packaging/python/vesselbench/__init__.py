@@ -18,7 +18,8 @@ from .project import Prepared, Project
 from .results import (Audit, AuditEntry, Batch, BatchCase, BatchFailure, Branch, CaseFailure, Centerlines, Change, Check,
                       Deviation, Diagnostic, Dismissal, Edit, End, Exported, Finding, Findings, Histogram, Log,
                       MeanCurvature, MeanMax, Measures, MinMean, MinMeanMax, Moved, Node, NotSearched, Odds, Operation,
-                      Parameter, Patch, Phantom, Remedy, Replay, ReplayedEdit, Review, ReviewedEdit, State, Treatment)
+                      Parameter, Patch, Phantom, Reading, Remedy, Replay, ReplayedEdit, Review, ReviewedEdit, State,
+                      Treatment)
 
 __all__ = [
     "batch", "centerlines", "doctor", "ends", "measure", "operation", "operations", "phantom", "picture", "prepare", "run",
@@ -28,5 +29,6 @@ __all__ = [
     "Audit", "AuditEntry", "Batch", "BatchCase", "BatchFailure", "Branch", "CaseFailure", "Centerlines", "Change", "Check",
     "Deviation", "Diagnostic", "Dismissal", "Edit", "End", "Exported", "Finding", "Findings", "Histogram", "Log",
     "MeanCurvature", "MeanMax", "Measures", "MinMean", "MinMeanMax", "Moved", "Node", "NotSearched", "Odds", "Operation",
-    "Parameter", "Patch", "Phantom", "Remedy", "Replay", "ReplayedEdit", "Review", "ReviewedEdit", "State", "Treatment",
+    "Parameter", "Patch", "Phantom", "Reading", "Remedy", "Replay", "ReplayedEdit", "Review", "ReviewedEdit", "State",
+    "Treatment",
 ]

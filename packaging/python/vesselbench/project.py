@@ -107,14 +107,22 @@ class Project:
         """What looks like an artefact, with evidence, certainty and the operation that would treat it."""
         return read(Findings, self._answer("findings", {"variant": variant}), "findings")
 
-    def accept(self, finding: Finding | str, /, *, variant: str | None = None) -> Edit:
-        """Runs the operation that treats a finding."""
-        return read(Edit, self._answer("findings", {"accept": _id(finding), "variant": variant}), "findings")
+    def treat(self, finding: Finding | str, /, *, taken_as: str | None = None, variant: str | None = None) -> Edit:
+        """Runs the operation that treats a finding.
+
+        taken_as  key of the reading, of a finding that may be anatomy
+        """
+        options = {"apply": _id(finding), "as": taken_as, "variant": variant}
+        return read(Edit, self._answer("findings", options), "findings")
+
+    def keep(self, finding: Finding | str, reason: str | None = None, /, *, variant: str | None = None) -> Findings:
+        """Leaves what was found as it is, and returns the others. A question needs no reason."""
+        options = {"keep": _id(finding), "reason": reason, "variant": variant}
+        return read(Findings, self._answer("findings", options), "findings")
 
     def dismiss(self, finding: Finding | str, reason: str, /, *, variant: str | None = None) -> Findings:
-        """Judges a finding as no artefact, and returns the others."""
-        options = {"dismiss": _id(finding), "reason": reason, "variant": variant}
-        return read(Findings, self._answer("findings", options), "findings")
+        """The same, with a reason."""
+        return self.keep(finding, reason, variant=variant)
 
     def review(self, *, out: PathLike | None = None, verdicts: PathLike | list[PathLike] | None = None,
                **options: Option) -> Review:

@@ -338,6 +338,18 @@ class Treatment(Result):
 
 
 @dataclass(frozen=True)
+class Reading(Result):
+    """One of the things that a finding may be."""
+
+    key: str
+    name: str
+    anatomy: bool  #: it is kept
+    odds: float | None  #: 0 to 1; None: nothing weighs the readings
+    text: str
+    evidence: tuple[Diagnostic, ...]
+
+
+@dataclass(frozen=True)
 class Finding(Result):
     """What looks like an artefact."""
 
@@ -350,6 +362,8 @@ class Finding(Result):
     text: str
     evidence: Diagnostic
     operation: Treatment | None  #: None: no operation treats it
+    certain_of: str = ""  #: what the certainty is of
+    readings: tuple[Reading, ...] = ()  #: likeliest first, where anatomy may be what was found; else empty
 
 
 @dataclass(frozen=True)

@@ -58,7 +58,7 @@ std::string measure_label(const MeasureList& measures) {
 }
 
 std::string finding_label(const FindingsFeature& feature) {
-    const std::size_t count = feature.findings() ? feature.findings()->open.size() : 0;
+    const std::size_t count = feature.listed();
     return count == 0 ? "Findings" : "Findings (" + std::to_string(count) + ")";
 }
 

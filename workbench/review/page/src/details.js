@@ -58,7 +58,7 @@ export function heading(edit, level = 'h2') {
 /** The parts below the verdict, as elements. @param {Function | null} look goes to a place; null on paper */
 export function facts(edit, manifest, surface, look) {
   return [
-    section('Why it is in the queue', why(manifest.queue.filter((item) => item.edit === edit.id))),
+    section('Why it is in the queue', why(manifest.queue.filter((item) => item.edit === edit.id && !item.folded))),
     section('Warnings', warningList(edit, look)),
     section('Figures', valueTable(edit.figures, 'Figures of the edit')),
     section('Arguments', valueTable(edit.arguments, 'Arguments of the edit')),

@@ -76,7 +76,7 @@ function readEdit(edit, states) {
 }
 
 const readQueued = (item) => ({ kind: text(item.kind), edit: count(item.edit), title: text(item.title), why: text(item.why),
-                                place: numbers(item.place, 3), radius: number(item.radius) });
+                                place: numbers(item.place, 3), radius: number(item.radius), folded: item.folded === true });
 
 function readProject(project) {
   const source = object(project.source);

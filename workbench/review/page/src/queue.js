@@ -21,8 +21,10 @@ export class ListPanel {
   constructor(elements, manifest, verdicts, onselect) {
     Object.assign(this, { ...elements, manifest, verdicts, onselect, at: 0 });
     const byId = new Map(manifest.edits.map((edit) => [edit.id, edit]));
+    const queue = manifest.queue.map((item) => ({ item, edit: byId.get(item.edit) })).filter(({ edit }) => edit);
+    this.folded = queue.filter(({ item }) => item.folded);
     this.entries = {
-      queue: manifest.queue.map((item) => ({ item, edit: byId.get(item.edit) })).filter(({ edit }) => edit),
+      queue: queue.filter(({ item }) => !item.folded),
       edits: manifest.edits.map((edit) => ({ item: null, edit })),
     };
     this.kind = this.entries.queue.length ? 'queue' : 'edits';
@@ -52,7 +54,23 @@ export class ListPanel {
     this.buttons = this.entries[this.kind].map((entry, i) => this.button(entry, i));
     fill(this.list, ...this.rows());
     if (!this.buttons.length) fill(this.list, make('li', { class: 'empty' }, 'Nothing here.'));
+    if (this.kind === 'queue' && this.folded.length) this.list.append(make('li', {}, this.unfolding()));
     this.mark();
+  }
+
+  /** The line under which findings are folded that are more likely wrong than right. */
+  unfolding() {
+    return make('button', { type: 'button', class: 'more', id: 'unfold', onclick: () => this.unfold() }, `${this.folded.length} more below 50 %`);
+  }
+
+  unfold() {
+    const first = this.entries.queue.length;
+    for (const entry of this.folded.splice(0)) {
+      entry.item.folded = false;
+      this.entries.queue.push(entry);
+    }
+    this.build();
+    this.select(first, true);
   }
 
   /** List items; edits have their step's title before the first of a step. */

@@ -45,6 +45,25 @@ describe('the page in a browser', { skip: missing, timeout: 240000 }, () => {
     await page.close();
   });
 
+  test('findings that are more likely wrong than right are folded under one line', async () => {
+    const manifest = structuredClone(sample.manifest);
+    const last = manifest.queue.at(-1);
+    manifest.queue.push({ ...last, kind: 'finding', title: 'Bump', why: '31 % that the wall rises there', folded: true },
+                        { ...last, kind: 'finding', title: 'Dent', why: '20 % that the wall is pressed in there', folded: true });
+    const page = await openPage(await fresh(), writePage(tools.folder, 'folded.html', template, { ...sample, manifest }));
+    await shown(page);
+    const entries = () => page.$$eval('.entry', (all) => all.length);
+    assert.equal(await entries(), sample.manifest.queue.length);
+    assert.match(await text(page, '#queue-tab'), new RegExp(`\\(${sample.manifest.queue.length}\\)`));
+    assert.equal(await text(page, '#unfold'), '2 more below 50 %');
+    await page.click('#unfold');
+    assert.equal(await entries(), sample.manifest.queue.length + 2);
+    assert.match(await text(page, '.entry[aria-current=true]'), /Bump/);
+    assert.equal(await page.$('#unfold'), null);
+    assert.deepEqual(page.problems, []);
+    await page.close();
+  });
+
   test('verdicts, pin and distance by keyboard are saved', async () => {
     const page = await openPage(await fresh(), address);
     await shown(page);
