@@ -191,9 +191,8 @@ struct Advice {
 };
 
 /// The likelier choice as answers to all doubts at once, by the ends' numbers, so that a wrong one
-/// can be changed. Empty where ends were named already: numbers are those of a plan without names.
-Advice answers(const FlowProblem& problem, const OpeningPlanOptions& options) {
-    if (!options.inlets.empty() || !options.open.empty() || !options.closed.empty()) return {};
+/// can be changed.
+Advice answers_by_number(const FlowProblem& problem) {
     std::vector<std::string> open, closed;
     for (const EndRecord& end : problem.ends)
         if (end.verdict->doubtful)
@@ -208,6 +207,32 @@ Advice answers(const FlowProblem& problem, const OpeningPlanOptions& options) {
     if (!open.empty()) advice.arguments["open_ends"] = joined(open, ",");
     if (!closed.empty()) advice.arguments["close_ends"] = joined(closed, ",");
     return advice;
+}
+
+/// The same by places, with those of the ends that were named already: numbers are those of a plan
+/// without names.
+Advice answers_by_place(const OpeningPlan& plan, const FlowProblem& problem,
+                        const OpeningPlanOptions& options) {
+    Positions inlets = options.inlets, open = options.open, closed = options.closed;
+    for (const EndRecord& end : problem.ends)
+        if (end.verdict->doubtful) (has_opening(end) ? open : closed).push_back(end.place);
+    if (!problem.inlets.empty())
+        for (const EndRecord& end : plan.ends)
+            if (is_inlet(plan, end)) inlets.push_back(end.place);
+    Advice advice{.arguments = {},
+                  .effect =
+                      "answers as is likelier, and as before: a place that is wrong belongs to the "
+                      "other list, open or closed"};
+    for (const auto& [name, places] :
+         {std::pair{"inlet", &inlets}, {"open", &open}, {"closed", &closed}})
+        if (!places->empty()) advice.arguments[name] = points_text(*places);
+    return advice;
+}
+
+Advice answers(const OpeningPlan& plan, const FlowProblem& problem,
+               const OpeningPlanOptions& options) {
+    const bool named = !options.inlets.empty() || !options.open.empty() || !options.closed.empty();
+    return named ? answers_by_place(plan, problem, options) : answers_by_number(problem);
 }
 
 Advice closing(const Positions& closed) {
@@ -365,7 +390,7 @@ void check_flow(const OpeningPlan& plan, const Surface& surface, const Centerlin
     if (problem.code.empty()) return;
     std::vector<Advice> ways;
     if (problem.doubts) {
-        ways = {answers(problem, options),
+        ways = {answers(plan, problem, options),
                 {{{"accept_doubts", "true"}}, "continues with the likelier choice"}};
         std::erase_if(ways, [](const Advice& advice) { return advice.arguments.empty(); });
     } else {
