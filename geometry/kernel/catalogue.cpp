@@ -537,7 +537,9 @@ constexpr CatalogueText kTexts[] = {
      "end: [remove it with {fix}][{advice}]"},
     {"end-cannot-be-cut",
      "the end at {place} cannot be cut: {why}; {fix} leaves it closed on purpose"},
-    {"end-cannot-be-opened", "the {end} at {place} cannot be opened: {why}"},
+    {"end-cannot-be-opened",
+     "the {end} at {place} cannot be opened: {why}[\n{fix} leaves it closed on purpose][; "
+     "{advice}]"},
     {"no-tip-near", "no branch has its tip near {given}; the nearest one is at {place}"},
     {"no-end-to-open", "no vessel end that could be opened was found: give one with {fix}"},
     {"branch-without-foot",
@@ -607,8 +609,8 @@ constexpr CatalogueText kTexts[] = {
      "{most_millions:%.0f} million; use {fix} or more"},
     {"crosses-itself", "the surface intersects itself near {place}; use {fix} first"},
     {"would-cross-itself",
-     "the remeshed surface would intersect itself near {place}; use a smaller {fix}, or separate "
-     "the walls that touch there"},
+     "the new triangles would intersect themselves near {place}, where walls touch[: {fix} may "
+     "help][; {advice}]"},
     {"edges-too-coarse",
      "edges of {edge_mm} mm are too coarse for this vessel: the volume would change from "
      "{before_mm3:%.4g} to {after_mm3:%.4g} mm^3; use {fix}"},
