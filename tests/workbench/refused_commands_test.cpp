@@ -105,10 +105,11 @@ SCENARIO("A question about a body offers a command that resumes with the answer"
 
 SCENARIO("A command that resumes keeps the settings that are still to come, but what it replaces",
          "[workbench][remedies]") {
-    const DiagnosedFailure doubt(Diagnostic{.code = "end-in-doubt",
-                                            .operation = "clip-opening",
-                                            .words = {{"doubts", "there is one"}},
-                                            .remedies = {{.arguments = {{"open", "1,2,3"}}}}});
+    const DiagnosedFailure doubt(
+        Diagnostic{.code = "end-in-doubt",
+                   .operation = "clip-opening",
+                   .words = {{"doubts", "there is one"}},
+                   .remedies = {{.arguments = {{"closed", "4,5,6"}, {"open", "1,2,3"}}}}});
     const PrepareOptions options{
         .input = {.input = "a.nrrd", .label = "artery"},
         .purpose = "cfd",
@@ -119,6 +120,6 @@ SCENARIO("A command that resumes keeps the settings that are still to come, but 
     const Words command = command_of(refused_json(options, doubt, rest).at(0), 0);
     CHECK(command == Words{"vesselbench", "prepare", "a.nrrd", "--label", "artery", "--for", "cfd",
                            "--out", "out", "--resume", "--set", "clip-opening.vessel=vein", "--set",
-                           "clip-opening.close_ends=4", "--set", "remesh.edge=0.3", "--set",
+                           "remesh.edge=0.3", "--set", "clip-opening.closed=4,5,6", "--set",
                            "clip-opening.open=1,2,3"});
 }

@@ -50,13 +50,18 @@ std::string parameter_of_setting(const std::string& setting) {
     return setting.substr(std::min(from, setting.size()), setting.find('=') - from);
 }
 
-/// The remedy has the value, or all ends that the setting names by their numbers.
+/// The remedy has the value. One that names ends by their places names all of them.
 bool replaces(const Remedy& remedy, const std::string& setting) {
     if (remedy.operation != operation_of(setting)) return false;
     const std::string name = parameter_of_setting(setting);
-    const auto by_number = std::ranges::find(kNumberParameters, name, &NumberParameter::numbers);
-    return remedy.arguments.contains(name) ||
-           (by_number != kNumberParameters.end() && remedy.arguments.contains(by_number->places));
+    const auto names_ends = [&](const NumberParameter& p) {
+        return name == p.numbers || name == p.places;
+    };
+    const auto has_ends = [&](const NumberParameter& p) {
+        return remedy.arguments.contains(p.places);
+    };
+    return remedy.arguments.contains(name) || (std::ranges::any_of(kNumberParameters, names_ends) &&
+                                               std::ranges::any_of(kNumberParameters, has_ends));
 }
 
 /// True for an operation that reads the input: the preparation begins with it.

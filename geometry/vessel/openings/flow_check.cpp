@@ -13,6 +13,7 @@
 #include "geometry/vessel/ends/stub_lines.h"
 #include "geometry/vessel/ends/surface_ends.h"
 #include "geometry/vessel/openings/cut_trial.h"
+#include "geometry/vessel/openings/end_arguments.h"
 
 namespace vesselbench {
 
@@ -172,12 +173,6 @@ FlowProblem flow_problem(const OpeningPlan& plan, bool accept_doubts) {
     return problem;
 }
 
-std::string points_text(const Positions& points) {
-    std::vector<std::string> texts;
-    for (const Vec3& point : points) texts.push_back(coordinates_argument(point));
-    return joined(texts, ",");
-}
-
 /// A remedy and what it does.
 struct Advice {
     std::map<std::string, std::string> arguments;  ///< of clip-opening; empty: there is none
@@ -213,20 +208,17 @@ Advice answers_by_number(const FlowProblem& problem) {
 /// without names.
 Advice answers_by_place(const OpeningPlan& plan, const FlowProblem& problem,
                         const OpeningPlanOptions& options) {
-    Positions inlets = options.inlets, open = options.open, closed = options.closed;
+    OpeningPlanOptions answered = options;
     for (const EndRecord& end : problem.ends)
-        if (end.verdict->doubtful) (has_opening(end) ? open : closed).push_back(end.place);
+        if (end.verdict->doubtful)
+            (has_opening(end) ? answered.open : answered.closed).push_back(end.place);
     if (!problem.inlets.empty())
         for (const EndRecord& end : plan.ends)
-            if (is_inlet(plan, end)) inlets.push_back(end.place);
-    Advice advice{.arguments = {},
-                  .effect =
-                      "answers as is likelier, and as before: a place that is wrong belongs to the "
-                      "other list, open or closed"};
-    for (const auto& [name, places] :
-         {std::pair{"inlet", &inlets}, {"open", &open}, {"closed", &closed}})
-        if (!places->empty()) advice.arguments[name] = points_text(*places);
-    return advice;
+            if (is_inlet(plan, end)) answered.inlets.push_back(end.place);
+    return {.arguments = end_arguments(answered),
+            .effect =
+                "answers as is likelier, and as before: a place that is wrong belongs to the "
+                "other list, open or closed"};
 }
 
 Advice answers(const OpeningPlan& plan, const FlowProblem& problem,
@@ -235,9 +227,10 @@ Advice answers(const OpeningPlan& plan, const FlowProblem& problem,
     return named ? answers_by_place(plan, problem, options) : answers_by_number(problem);
 }
 
-Advice closing(const Positions& closed) {
-    return {{{"closed", points_text(closed)}},
-            closed.size() == 1 ? "leaves it closed on purpose" : "leaves them closed on purpose"};
+/// \param options with the closed ends
+Advice closing(const OpeningPlanOptions& options) {
+    return {end_arguments(options), options.closed.size() == 1 ? "leaves it closed on purpose"
+                                                               : "leaves them closed on purpose"};
 }
 
 /// One for each end; the first one has the text about all of them.
@@ -321,7 +314,7 @@ private:
             options.open.push_back(end.place);
             const Judgement found = judgement(options);
             if (found == Judgement::Good)
-                return {{{"open", points_text(options.open)}},
+                return {end_arguments(options),
                         options.open.size() == 1 ? "opens it" : "opens them"};
             if (found == Judgement::Impossible) options.open.pop_back();
         }
@@ -362,7 +355,7 @@ private:
             return {};
         OpeningPlanOptions options = options_;
         for (const EndRecord& end : problem_.ends) options.closed.push_back(end.place);
-        return judgement(options) == Judgement::Good ? closing(options.closed) : Advice{};
+        return judgement(options) == Judgement::Good ? closing(options) : Advice{};
     }
 
     /// A large tree takes seconds to plan.
@@ -401,8 +394,8 @@ void check_flow(const OpeningPlan& plan, const Surface& surface, const Centerlin
     throw DiagnosedFailure(diagnostics_of(plan, problem, ways));
 }
 
-Remedy closing_remedy(const Positions& closed) {
-    return closing(closed).remedies().front();
+Remedy closing_remedy(const OpeningPlanOptions& options) {
+    return closing(options).remedies().front();
 }
 
 }  // namespace vesselbench
