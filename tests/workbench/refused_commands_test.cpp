@@ -9,7 +9,6 @@
 
 #include "geometry/formats/surface_file.h"
 #include "geometry/kernel/diagnosed_error.h"
-#include "tests/support/iso_surface.h"
 #include "tests/support/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
@@ -84,16 +83,12 @@ SCENARIO("A question about the unit offers a command for each answer", "[workben
 SCENARIO("A question about a body offers a command that resumes with the answer",
          "[workbench][remedies]") {
     // A tube that stands on a plate.
-    const auto body = [](const Vec3& p) {
-        return std::max(std::hypot(p.x(), p.y()) - 2.0, std::abs(p.z()) - 15.0);
-    };
-    const Surface tube = iso_surface(body, {Vec3(-4, -4, -17), Vec3(4, 4, 17)}, 0.4);
     const Surface plate = mapped(cube(1.0), [](const Vec3& p) {
-        return Vec3(60.0 * p.x() - 30.0, 60.0 * p.y() - 30.0, 4.0 * p.z() - 17.0);
+        return Vec3(60.0 * p.x() - 30.0, 60.0 * p.y() - 30.0, 2.0 * p.z() - 1.5);
     });
     const std::string folder = temporary_folder(), out = folder + "/out";
-    write_surface(merged(tube, plate), folder + "/tube.stl");
-    const Json question = diagnostics_of(run({"prepare", folder + "/tube.stl", "--for", "planning",
+    write_surface(merged(closed_tube(4.0, 40.0, 28, 36), plate), folder + "/tube.stl");
+    const Json question = diagnostics_of(run({"prepare", folder + "/tube.stl", "--for", "rp",
                                               "--out", out, "--units", "mm", "--json"}))
                               .at(0);
     CHECK(question["code"] == "body-no-vessel");
