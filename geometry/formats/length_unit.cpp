@@ -7,7 +7,6 @@
 #include <numeric>
 #include <utility>
 
-#include "geometry/formats/unit_readings.h"
 #include "geometry/formats/vessel_size.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
@@ -59,6 +58,14 @@ std::array<double, kUnits.size()> odds(const VesselSize& size, LengthUnit usual)
     for (double& odd : result) sum += odd = std::exp(odd - most);
     for (double& odd : result) odd /= sum;
     return result;
+}
+
+std::string reading_text(const VesselSize& size, LengthUnit unit) {
+    const double factor = millimetres_per(unit);
+    const std::string text =
+        "in " + to_string(unit) + " it is " + formatted(factor * size.extent) + " mm long";
+    if (size.radius == 0.0) return text;
+    return text + " with a typical radius of " + formatted(factor * size.radius) + " mm";
 }
 
 }  // namespace

@@ -173,6 +173,10 @@ FlowProblem flow_problem(const OpeningPlan& plan, bool accept_doubts) {
     return problem;
 }
 
+std::map<std::string, std::string> named_in(const OpeningPlanOptions& options) {
+    return end_arguments(options.inlets, options.open, options.closed);
+}
+
 /// A remedy and what it does.
 struct Advice {
     std::map<std::string, std::string> arguments;  ///< of clip-opening; empty: there is none
@@ -215,7 +219,7 @@ Advice answers_by_place(const OpeningPlan& plan, const FlowProblem& problem,
     if (!problem.inlets.empty())
         for (const EndRecord& end : plan.ends)
             if (is_inlet(plan, end)) answered.inlets.push_back(end.place);
-    return {.arguments = end_arguments(answered),
+    return {.arguments = named_in(answered),
             .effect =
                 "answers as is likelier, and as before: a place that is wrong belongs to the "
                 "other list, open or closed"};
@@ -229,8 +233,8 @@ Advice answers(const OpeningPlan& plan, const FlowProblem& problem,
 
 /// \param options with the closed ends
 Advice closing(const OpeningPlanOptions& options) {
-    return {end_arguments(options), options.closed.size() == 1 ? "leaves it closed on purpose"
-                                                               : "leaves them closed on purpose"};
+    return {named_in(options), options.closed.size() == 1 ? "leaves it closed on purpose"
+                                                          : "leaves them closed on purpose"};
 }
 
 /// One for each end; the first one has the text about all of them.
@@ -314,8 +318,7 @@ private:
             options.open.push_back(end.place);
             const Judgement found = judgement(options);
             if (found == Judgement::Good)
-                return {end_arguments(options),
-                        options.open.size() == 1 ? "opens it" : "opens them"};
+                return {named_in(options), options.open.size() == 1 ? "opens it" : "opens them"};
             if (found == Judgement::Impossible) options.open.pop_back();
         }
         return {};

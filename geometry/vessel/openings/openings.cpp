@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <numeric>
+#include <string>
 #include <utility>
 
 #include "geometry/kernel/diagnosed_error.h"
@@ -109,17 +111,16 @@ private:
                 "the image, the segmentation or the surface has to end across the vessel there: "
                 "crop it so, a little farther inward";
         else
-            refusal.remedies = {{.arguments = end_arguments(with_closed(e))}};
+            refusal.remedies = {{.arguments = with_closed(e)}};
         throw DiagnosedFailure(std::move(refusal));
     }
 
     /// What was named, but that the end stays closed.
-    [[nodiscard]] OpeningPlanOptions with_closed(std::size_t e) const {
-        OpeningPlanOptions options = draft_.options();
-        std::erase_if(options.open,
-                      [&](const Vec3& point) { return end_near(draft_.ends(), point) == e; });
-        options.closed.push_back(draft_.ends()[e].centre);
-        return options;
+    [[nodiscard]] std::map<std::string, std::string> with_closed(std::size_t e) const {
+        Positions open = draft_.options().open, closed = draft_.options().closed;
+        std::erase_if(open, [&](const Vec3& p) { return end_near(draft_.ends(), p) == e; });
+        closed.push_back(draft_.ends()[e].centre);
+        return end_arguments(draft_.options().inlets, open, closed);
     }
 
     /// An opening that was planned and could not be made says more than why there is no other.
