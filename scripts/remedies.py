@@ -31,6 +31,7 @@ import re
 import shutil
 import subprocess
 import sys
+import textwrap
 
 import acceptance
 import common
@@ -222,7 +223,7 @@ def tables(rows):
 # --- the page ------------------------------------------------------------------------------------------------------------
 ABOUT = """# Does what a refusal advises help?
 
-Written by `scripts/remedies.py page` with the program of {revision}, run on {date}: {part}; {prepared}.
+{written}
 
 Where `prepare` refuses an input, it names what would go on, and `--json` has that as lists of arguments. The script does what is
 named first, as it stands there, up to three times in a row, and judges the product: by the true ends or the true tree where the
@@ -252,7 +253,10 @@ def write_page(out):
     unhelped = [row_line([f"{r['group']}/{r['name']}", r["goal"], r["outcome"], r["steps"][0]["code"] if r["steps"] else "",
                           r["steps"][-1]["code"] if r["steps"] else ""])
                 for r in rows if r["outcome"] not in ("none", "helped", "outside")]
-    head = ABOUT.format(prepared=f"{len(rows)} inputs", **{key: run[key] for key in ("revision", "date", "part", "timeout")})
+    written = (f"Written by `scripts/remedies.py page` with the program of {run['revision']}, run on {run['date']}: "
+               f"{run['part']}; {len(rows)} inputs. The other groups that the script knows were not part of it: "
+               f"{', '.join(run['left_out']) or 'there are none'}.")
+    head = ABOUT.format(written=textwrap.fill(written, 130), timeout=run["timeout"])
     tail = TAIL.format(rows=common.table(["input", "for", "outcome", "first refusal", "last refusal"], unhelped).strip())
     with open(PAGE, "w") as file:
         file.write(head + tables(rows) + tail)
@@ -280,6 +284,7 @@ def main():
         return 77
     os.makedirs(options.out, exist_ok=True)
     run = {"revision": page_rows.revision(), "date": str(datetime.date.today()), "part": part_text(options),
+           "left_out": [group for group in GROUPS if group not in options.groups.split(",")],
            "timeout": options.timeout}  # of the files as they are now
     rows = []
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
