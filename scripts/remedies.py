@@ -3,6 +3,7 @@
 
   scripts/remedies.py [--from GROUP,...] [--only PART] [--goal cfd|rp] [--sample N] [--seeds A-B] [--out FOLDER]
                       [--jobs N] [--timeout S] [--table FILE]
+  scripts/remedies.py page [--out FOLDER]            writes docs/science/remedies.md of what FOLDER/results.json has
 
 Groups: surfaces, images, nasty, slicer, strangers, ends, anatomy of ../shared/data, and forest, random vessel trees of seeds
 that no other script uses. Each input is prepared as it is. Where `prepare` refuses it, the first remedy of report.json that has
@@ -22,6 +23,7 @@ is counted apart, with what the answer makes that is proposed.
 import collections
 import concurrent.futures
 import dataclasses
+import datetime
 import glob
 import json
 import os
@@ -29,17 +31,20 @@ import re
 import shutil
 import subprocess
 import sys
+import textwrap
 
 import acceptance
 import common
 import forest
+import page_rows
 from common import DATA, PROGRAM, ROOT, row_line
 
 IN_A_ROW = 3
 JUDGE = os.path.join(DATA, "ends", "judge_ends.py")
 GROUPS = ("surfaces", "images", "nasty", "slicer", "strangers", "ends", "anatomy", "forest")
 OUTCOMES = ("helped", "wrong", "led on", "did not help", "outside", "slow")
-QUESTIONS = {"unit-in-doubt", "label-unchosen", "body-no-vessel", "end-in-doubt"}
+QUESTIONS = {"unit-in-doubt", "label-unchosen", "body-no-vessel", "end-in-doubt", "vessel-unstated"}
+PAGE = os.path.join(ROOT, "docs", "science", "remedies.md")
 
 
 @dataclasses.dataclass
@@ -113,19 +118,14 @@ class Refusal:
     remedies: int     # how many there are with commands
 
 
-def refusal_of(folder, out, err):
-    """What report.json says, else the document that --json prints."""
-    try:
-        with open(os.path.join(folder, "report.json")) as file:
-            stopped = json.load(file).get("stopped")
-    except OSError:
-        stopped = None
-    if not stopped:
-        stopped = {"text": forest.failed_step(err), "diagnostics": json.loads(out).get("diagnostics", []) if out else []}
-    diagnostics = stopped["diagnostics"]
+def refusal_of(out, err):
+    """What the document says that --json prints."""
+    document = json.loads(out) if out else {}
+    diagnostics = document.get("diagnostics", [])
     offered = [r["commands"] for d in diagnostics for r in d.get("remedies", []) if r.get("commands")]
     first = diagnostics[0] if diagnostics else {}
-    return Refusal(stopped["text"], first.get("code", ""), first.get("place_mm"), offered[0] if offered else [], len(offered))
+    return Refusal(document.get("error") or forest.failed_step(err), first.get("code", ""), first.get("place_mm"),
+                   offered[0] if offered else [], len(offered))
 
 
 def words_of(command):
@@ -157,7 +157,7 @@ def tried(case, options):
             break
         if code == 0:
             break
-        refusal = refusal_of(folder, out, err)
+        refusal = refusal_of(out, err)
         row["steps"].append(dataclasses.asdict(refusal))
         first = first or refusal
         if not refusal.commands:
@@ -175,7 +175,7 @@ def tried(case, options):
             row["failure"] = judged(case, folder)
             row["outcome"] = "wrong" if row["failure"] else "helped"
         else:
-            last = refusal_of(folder, out, err)
+            last = refusal_of(out, err)
             row["steps"].append(dataclasses.asdict(last))
             row["outcome"] = "did not help" if (last.code, last.place) == (first.code, first.place) else "led on"
     shutil.rmtree(folder, ignore_errors=True)
@@ -220,7 +220,54 @@ def tables(rows):
         ["question", "count", *OUTCOMES], counted(asked, lambda r: r["steps"][0]["code"]))
 
 
+# --- the page ------------------------------------------------------------------------------------------------------------
+ABOUT = """# Does what a refusal advises help?
+
+{written}
+
+Where `prepare` refuses an input, it names what would go on, and `--json` has that as lists of arguments. The script does what is
+named first, as it stands there, up to three times in a row, and judges the product: by the true ends or the true tree where the
+input has one, else by whether it is closed and manifold, without crossings, with flat openings. Nothing else is claimed of a
+product that *helped*. *Outside*: no command is offered, and the text says what to do elsewhere, or that there is no vessel. *Led
+on*: the last refusal is another one than the first. *Slow*: over {timeout:g} s of processor time.
+
+"""
+TAIL = """
+## What did not help
+
+{rows}
+"""
+
+
+def part_text(options):
+    """Which inputs a run takes."""
+    return (f"groups {options.groups.replace(',', ', ')}" + (f", names with '{options.only}'" if options.only else "") +
+            (f", for {options.goal}" if options.goal else ", for cfd and rp") +
+            (f", {options.sample} of each group" if options.sample else ""))
+
+
+def write_page(out):
+    with open(os.path.join(out, "results.json")) as file:
+        run = json.load(file)
+    rows = run["rows"]
+    unhelped = [row_line([f"{r['group']}/{r['name']}", r["goal"], r["outcome"], r["steps"][0]["code"] if r["steps"] else "",
+                          r["steps"][-1]["code"] if r["steps"] else ""])
+                for r in rows if r["outcome"] not in ("none", "helped", "outside")]
+    written = (f"Written by `scripts/remedies.py page` with the program of {run['revision']}, run on {run['date']}: "
+               f"{run['part']}; {len(rows)} inputs. The other groups that the script knows were not part of it: "
+               f"{', '.join(run['left_out']) or 'there are none'}.")
+    head = ABOUT.format(written=textwrap.fill(written, 130), timeout=run["timeout"])
+    tail = TAIL.format(rows=common.table(["input", "for", "outcome", "first refusal", "last refusal"], unhelped).strip())
+    with open(PAGE, "w") as file:
+        file.write(head + tables(rows) + tail)
+
+
 def main():
+    if sys.argv[1:2] == ["page"]:
+        parser = common.parser(__doc__)
+        parser.add_argument("page")
+        parser.add_argument("--out", default=os.path.join(ROOT, "out", "remedies"))
+        return write_page(parser.parse_args().out)
     parser = common.parser(__doc__)
     parser.add_argument("--from", dest="groups", default=",".join(GROUPS))
     parser.add_argument("--only", help="part of a name")
@@ -236,13 +283,16 @@ def main():
         common.skip("no ../shared/data")
         return 77
     os.makedirs(options.out, exist_ok=True)
+    run = {"revision": page_rows.revision(), "date": str(datetime.date.today()), "part": part_text(options),
+           "left_out": [group for group in GROUPS if group not in options.groups.split(",")],
+           "timeout": options.timeout}  # of the files as they are now
     rows = []
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         for row in pool.map(lambda case: tried(case, options), list(inputs(options))):
             rows.append(row)
             say(row)
-    with open(os.path.join(options.out, "results.json"), "w") as file:
-        json.dump(rows, file, indent=1)
+            with open(os.path.join(options.out, "results.json"), "w") as file:
+                json.dump({**run, "rows": rows}, file, indent=1)
     text = tables(rows)
     print("\n" + text)
     if options.table:

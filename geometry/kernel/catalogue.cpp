@@ -19,7 +19,7 @@ constexpr CatalogueText kTexts[] = {
     {"voxels-too-small",
      "the file states no unit and its voxels measure {spacing}: taken as metres; if that is wrong, "
      "give {fix}"},
-    {"unit-in-doubt", "{doubt}: give {fix}, which is mm, cm, m or um (prepare and new: --units)"},
+    {"unit-in-doubt", "{doubt}: give {options} (of an edit: units=)"},
     {"mask-not-labels", "mask: {reason}"},
     {"mask-of-intensities",
      "the mask holds neither labels nor a level set: give {fix}, the value that bounds its inside"},
@@ -528,13 +528,18 @@ constexpr CatalogueText kTexts[] = {
     {"one-end-twice", "two inlets mean the same end, at {place}"},
     {"cap-not-flat", "the cap '{cap}' is not flat: clip it first with {fix}"},
     {"cap-not-a-disc",
-     "the cap '{cap}' is not a single disc with one rim: clip the vessel there again ({fix})"},
+     "the cap '{cap}' at {place} is not a single disc with one rim: vessels end there side by "
+     "side, "
+     "or something lies within; separate them in the segmentation, or crop the image so that it "
+     "ends before they meet"},
     {"no-whole-section",
      "the branch with its tip at {place} has no whole section before its furcation or its other "
      "end: [remove it with {fix}][{advice}]"},
     {"end-cannot-be-cut",
      "the end at {place} cannot be cut: {why}; {fix} leaves it closed on purpose"},
-    {"end-cannot-be-opened", "the {end} at {place} cannot be opened: {why}"},
+    {"end-cannot-be-opened",
+     "the {end} at {place} cannot be opened: {why}[\n{fix} leaves it closed on purpose][; "
+     "{advice}]"},
     {"no-tip-near", "no branch has its tip near {given}; the nearest one is at {place}"},
     {"no-end-to-open", "no vessel end that could be opened was found: give one with {fix}"},
     {"branch-without-foot",
@@ -568,6 +573,10 @@ constexpr CatalogueText kTexts[] = {
     {"surface-is-sheet",
      "there is no vessel in it: the surface is a sheet, {width_mm} mm wide and {thickness_mm} mm "
      "thick on average, and encloses no lumen"},
+    {"larger-than-vessels",
+     "the surface encloses {litres:%.3g} l, more than a heart with its great vessels: it is an "
+     "organ "
+     "or the body, and no vessel; {way}"},
     {"vessel-within-noise",
      "there is no vessel in it that can be distinguished from noise: the surface has "
      "{loops#loop}; choose another threshold ({fix}), or add a mask ({fix2})"},
@@ -600,8 +609,8 @@ constexpr CatalogueText kTexts[] = {
      "{most_millions:%.0f} million; use {fix} or more"},
     {"crosses-itself", "the surface intersects itself near {place}; use {fix} first"},
     {"would-cross-itself",
-     "the remeshed surface would intersect itself near {place}; use a smaller {fix}, or separate "
-     "the walls that touch there"},
+     "the new triangles would intersect themselves near {place}, where walls touch[: {fix} may "
+     "help][; {advice}]"},
     {"edges-too-coarse",
      "edges of {edge_mm} mm are too coarse for this vessel: the volume would change from "
      "{before_mm3:%.4g} to {after_mm3:%.4g} mm^3; use {fix}"},

@@ -124,8 +124,12 @@ void refine(const Surface& source, const Positions& places, double gradation,
     throw DiagnosedFailure({.code = old.empty() ? "would-cross-itself" : "crosses-itself",
                             .operation = "remesh",
                             .place = crossing.points()[crossing.triangles()[t][0]],
-                            .remedies = {old.empty() ? Remedy{.arguments = {{"edge", ""}}}
-                                                     : Remedy{.operation = "repair"}}});
+                            .words = {{"advice",
+                                       "edges a fifth as long do not help, nor does cutting the "
+                                       "crossing out: part the walls in the segmentation, or take "
+                                       "one of the vessels away before"}},
+                            .remedies = old.empty() ? std::vector<Remedy>()
+                                                    : std::vector{Remedy{.operation = "repair"}}});
 }
 
 /// Cutting crossings out may leave crumbs, which are dropped; a vessel would be larger than this

@@ -58,6 +58,18 @@ SCENARIO("A sheet and noise have no lumen", "[geometry][openings]") {
     CHECK_NOTHROW(require_lumen(icosphere(5.0, 3)));
 }
 
+SCENARIO("What encloses more than a heart with its great vessels is no vessel",
+         "[geometry][openings]") {
+    const Surface body = icosphere(90.0, 3), heart = icosphere(60.0, 3);
+    CHECK_THROWS_WITH(require_vessel_size(body),
+                      Contains("no vessel") && Contains("3.0") && Contains("--mask"));
+    CHECK_THROWS_WITH(require_vessel_size(body, SurfaceOrigin::Mask),
+                      Contains("labels") && !Contains("--mask"));
+    CHECK_THROWS_WITH(require_vessel_size(body, SurfaceOrigin::File), Contains("unit"));
+    CHECK_NOTHROW(require_vessel_size(heart));
+    CHECK_NOTHROW(require_vessel_size(open_tube(15.0, 1000.0, 40, 200)));
+}
+
 SCENARIO("A blob has no tube, a capsule has", "[geometry][openings]") {
     const Eigen::AlignedBox3d box(Vec3(-5, -5, -13), Vec3(5, 5, 13));
     const auto capsule_of = [&](double half) {

@@ -111,6 +111,18 @@ SCENARIO("Several labels of which none is chosen make nothing", "[workbench][lab
             CHECK_FALSE(fs::exists(out + "/project.vbench"));
             CHECK_FALSE(fs::exists(out + "/report.json"));
         }
+        THEN("each label is an answer, with its command") {
+            const ProgramRun again =
+                run({"prepare", labels, "--for", "rp", "--out", out, "--json"});
+            const Json question = Json::parse(again.out).at("diagnostics").at(0);
+            REQUIRE(question.at("remedies").size() == 2);
+            CHECK(question["remedies"][1]["arguments"]["label"] == "vein");
+            auto command = question["remedies"][1]["commands"][0].get<std::vector<std::string>>();
+            command.erase(command.begin());
+            const ProgramRun answered = run(command);
+            INFO(answered.err);
+            CHECK(answered.exit_code == 0);
+        }
         THEN("ends asks as well") {
             CHECK(run({"ends", labels}).exit_code == 2);
         }

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/printable.h"
@@ -15,6 +16,9 @@
 namespace vesselbench {
 
 namespace {
+
+/// Of a hundred labels, so many are offered as answers; all are listed.
+constexpr std::size_t kMostAnswers = 20;
 
 std::string without_blanks(std::string_view text) {
     const auto first = text.find_first_not_of(' '), last = text.find_last_not_of(' ');
@@ -109,8 +113,8 @@ std::string in_columns(const std::vector<std::vector<std::string>>& rows) {
     return text;
 }
 
-/// The largest one is no better guess than another: the first one is the example.
-std::string example_of(const std::vector<Segment>& segments, int label) {
+/// What names a label: its name, or its number where a name would not do.
+std::string option_of(const std::vector<Segment>& segments, int label) {
     const auto found = std::ranges::find(segments, label, &Segment::label);
     const bool plain = found != segments.end() && !found->name.empty() &&
                        found->name.find(',') == std::string::npos;
@@ -155,16 +159,22 @@ std::string label_list(const std::vector<Segment>& segments,
 
 Diagnostic label_unchosen(const std::vector<Segment>& segments,
                           const std::map<int, LabelSize>& sizes) {
-    const std::string example = example_of(segments, sizes.begin()->first);
     std::vector<std::string> numbers;
-    for (const auto& [label, size] : sizes)
+    std::vector<Remedy> remedies;
+    for (const auto& [label, size] : sizes) {
         if (numbers.size() < 2) numbers.push_back(std::to_string(label));
+        if (remedies.size() == kMostAnswers) break;
+        remedies.push_back({.arguments = {{"label", option_of(segments, label)}}});
+    }
+    // The largest one is no better guess than another: the first one is the example.
+    const std::string& example = remedies.front().arguments.at("label");
     return {.code = "label-unchosen",
             .operation = "load-image",
             .figures = {{"labels", static_cast<double>(sizes.size())}},
             .words = {{"list", label_list(segments, sizes)},
                       {"option", "--label " + shell_quoted(example)},
-                      {"several", joined(numbers, ",")}}};
+                      {"several", joined(numbers, ",")}},
+            .remedies = std::move(remedies)};
 }
 
 }  // namespace vesselbench

@@ -31,7 +31,8 @@ struct Scene;
 /// The code of label_unchosen().
 inline constexpr const char* kLabelUnchosen = "label-unchosen";
 
-/// What is missing where there are several labels and none is chosen: the list, and how to choose.
+/// What is missing where there are several labels and none is chosen: the list, and how to choose;
+/// each label is an answer, in their order, which says nothing about what is likelier.
 /// \pre sizes are not empty
 [[nodiscard]] Diagnostic label_unchosen(const std::vector<Segment>& segments,
                                         const std::map<int, LabelSize>& sizes);

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <utility>
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
@@ -175,6 +176,7 @@ std::string project_of(const CLI::App& app) {
 
 int run_command_line(int argc, char** argv, const std::stop_token& stop, FailedCommand& command) {
     CommandLine line(stop);
+    line.refused = [&command](std::string json) { command.refused = std::move(json); };
     set_up(line);
     std::vector<std::string> arguments = arguments_of(argc, argv);
     // Not asked from the parser: it may refuse another argument first.

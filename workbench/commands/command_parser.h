@@ -23,6 +23,7 @@ struct CommandLine {
     std::function<int()> command;
     WindowOptions window;
     MessageOptions messages;
+    std::function<void(std::string)> refused;  ///< gets what FailedCommand::refused is
 };
 
 /// Adds a command with the options that all have. \param command runs it, and returns its exit code

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -234,7 +235,9 @@ struct PrepareArguments {
                                                  const EndArguments& ends);
 
 /// Turns the input into a CFD or print model.
-void prepare_case(const PrepareArguments& arguments, const Progress& progress);
+/// \param refused gets the diagnostics of a preparation that stops, as JSON with commands
+void prepare_case(const PrepareArguments& arguments, const Progress& progress,
+                  const std::function<void(std::string)>& refused);
 
 struct EndsOptions {
     InputArguments input;               ///< a project as well

@@ -18,8 +18,10 @@ Json failure_json(const Failure& failure, const FailedCommand& command) {
     Json json = {{"error", failure.text}, {"code", failure.code}};
     if (failure.cancelled) json["cancelled"] = true;
     if (command.edit) json["edit"] = *command.edit;
-    for (const Diagnostic& diagnostic : failure.diagnostics)
-        json["diagnostics"].push_back(diagnostic_json(diagnostic));
+    if (!command.refused.empty())
+        json["diagnostics"] = Json::parse(command.refused);
+    else if (!failure.diagnostics.empty())
+        json["diagnostics"] = diagnostics_json(failure.diagnostics);
     return json;
 }
 

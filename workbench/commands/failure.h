@@ -14,6 +14,7 @@ struct FailedCommand {
     bool json = false;                 ///< --json was given
     std::optional<std::int64_t> edit;  ///< that it names (EDIT); none: no such argument
     Audience audience = {};            ///< what its reader knows
+    std::string refused = {};  ///< JSON of its diagnostics with commands; empty: none has any
 };
 
 /// Why a command failed.

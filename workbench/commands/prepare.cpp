@@ -1,6 +1,7 @@
 #include "workbench/prepare/prepare.h"
 
 #include <algorithm>
+#include <functional>
 #include <iostream>
 #include <utility>
 
@@ -102,7 +103,8 @@ std::vector<std::string> with_ends(std::vector<std::string> settings, const EndA
     return settings;
 }
 
-void prepare_case(const PrepareArguments& arguments, const Progress& progress) {
+void prepare_case(const PrepareArguments& arguments, const Progress& progress,
+                  const std::function<void(std::string)>& refused) {
     const Purpose& purpose = find_purpose(arguments.purpose);
     const std::filesystem::path out = arguments.out;
     const std::string project = (out / kProjectFile).string();
@@ -110,15 +112,17 @@ void prepare_case(const PrepareArguments& arguments, const Progress& progress) {
         const Audience reader{.project = project, .preparing = true};
         warn(worded_with_operation(warning, reader));
     });
-    const PrepareSummary made = prepare({.input = input_options(arguments.input, arguments.name),
-                                         .purpose = arguments.purpose,
-                                         .recipe = arguments.recipe,
-                                         .arguments = with_ends(arguments.settings, arguments.ends),
-                                         .out = arguments.out,
-                                         .resume = arguments.resume,
-                                         .author = arguments.author,
-                                         .question = arguments.question},
-                                        tell, progress);
+    const PrepareSummary made =
+        prepare({.input = input_options(arguments.input, arguments.name),
+                 .purpose = arguments.purpose,
+                 .recipe = arguments.recipe,
+                 .arguments = with_ends(arguments.settings, arguments.ends),
+                 .out = arguments.out,
+                 .resume = arguments.resume,
+                 .author = arguments.author,
+                 .question = arguments.question,
+                 .refused = [&](const Json& json) { refused(text_from_json(json)); }},
+                tell, progress);
     if (arguments.json) return print_prepared(arguments, made);
     std::string what = purpose.result + ":";
     what.resize(std::string("report:      ").size(), ' ');

@@ -133,9 +133,9 @@ void add_end_options(CLI::App& command, EndArguments& ends) {
 
 void add_prepare(CommandLine& line) {
     const auto options = std::make_shared<PrepareArguments>();
-    CLI::App& command =
-        add_command(line, "prepare", "Make a CFD model or a print model from an image or a surface",
-                    [options, &line] { return prepare_case(*options, line.progress), 0; });
+    CLI::App& command = add_command(
+        line, "prepare", "Make a CFD model or a print model from an image or a surface",
+        [options, &line] { return prepare_case(*options, line.progress, line.refused), 0; });
     add_input_argument(command, options->input);
     command.footer(prepare_footer());
     add_purpose(command, options->purpose);

@@ -60,7 +60,7 @@ Outcome load(const Scene& scene, const Arguments& arguments, Progress& progress)
     bool turned = false;
     Surface neighbour;
     if (arguments.has("file")) {
-        SurfaceArgument read = read_surface_argument(arguments, outcome);
+        SurfaceArgument read = read_surface_argument("load-neighbour", arguments, outcome);
         neighbour = std::move(read.surface);
         turned = read.turned;
     } else {

@@ -47,7 +47,7 @@ Outcome load(const Scene& scene, const Arguments& arguments, Progress& progress)
     progress.report(0.0, "reading");
     Outcome outcome;
     outcome.resolved = arguments;
-    SurfaceArgument read = read_surface_argument(arguments, outcome);
+    SurfaceArgument read = read_surface_argument("load-surface", arguments, outcome);
     outcome.report = std::make_shared<ordered_json>(report_of(read));
     outcome.scene = with_surface(scene, std::move(read.surface));
     outcome.scene.sampling.reset();

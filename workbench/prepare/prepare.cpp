@@ -259,13 +259,13 @@ PrepareSummary write_results(Session& session, const PrepareOptions& options, Pr
 }
 
 /// report.json of a preparation that stopped, and how to go on.
-void write_refusal(const PrepareOptions& options, const DiagnosedFailure& failure,
+void write_refusal(const PrepareOptions& options, const std::exception& error, const Recipe& rest,
                    const Teller& tell) {
     const std::vector<std::string> names = {"report.json"};
     const std::vector<std::string> earlier = earlier_results(options.out);
     keep_others(options.out, names, earlier, tell);
     const Json report =
-        refusal_json(options, failure, remaining_results(options.out, names, earlier));
+        refusal_json(options, error, remaining_results(options.out, names, earlier), rest);
     write_file(options.out / names.front(), text_from_json(printable_json(report), 2) + "\n");
     tell(std::string("the completed edits are kept in ") + kProjectFile +
          "; report.json lists what was found; --resume continues there, also after a manual edit");
@@ -311,21 +311,26 @@ std::size_t begin_project(const PrepareOptions& options, const Input& input,
     return kept_reviewers(project, options.purpose, reviewers_asked(options, input, recipe_json));
 }
 
+bool is_diagnosed(const std::exception& error) {
+    return dynamic_cast<const Diagnosed*>(&error) != nullptr;
+}
+
 /// The vessel is not chosen among the labels: there is no model yet to go on with.
 bool lacks_label(const std::exception& error) {
-    const auto* diagnosed = dynamic_cast<const Diagnosed*>(&error);
-    return diagnosed != nullptr && diagnosed->diagnostics().front().code == kLabelUnchosen;
+    return is_diagnosed(error) && diagnostics_of(error).front().code == kLabelUnchosen;
 }
 
 /// Of a preparation that stopped: the project, if there is an edit in it, and how to go on.
-void keep_what_was_made(Session& session, const PrepareOptions& options, bool any_edit,
-                        const std::exception& error, const Teller& tell) {
+void keep_what_was_made(Session& session, const PrepareOptions& options, const Recipe& recipe,
+                        bool any_edit, const std::exception& error, const Teller& tell) {
+    const Recipe rest = resumed_recipe(recipe, *session.snapshot(), options.purpose, {}).rest;
+    if (options.refused && is_diagnosed(error)) options.refused(refused_json(options, error, rest));
     const bool unusable =
         dynamic_cast<const UnusableSource*>(&error) != nullptr || lacks_label(error);
     if (unusable ? !options.resume : !any_edit) return session.discard();
-    if (unusable || dynamic_cast<const UsageError*>(&error) != nullptr) return;
-    if (const auto* failure = dynamic_cast<const DiagnosedFailure*>(&error))
-        return write_refusal(options, *failure, tell);
+    if (unusable) return;
+    if (is_diagnosed(error)) return write_refusal(options, error, rest, tell);
+    if (dynamic_cast<const UsageError*>(&error) != nullptr) return;
     tell("the completed edits are kept in " + std::string(kProjectFile) +
          "; the results were not written; --resume continues there, also after a manual edit");
 }
@@ -372,7 +377,7 @@ PrepareSummary prepare(const PrepareOptions& options, const Teller& tell,
         return finished(session, rest, options, std::move(prepared), noting,
                         progress.part(0.02, 1.0));
     } catch (const std::exception& error) {
-        keep_what_was_made(session, options, any_edit, error, tell);
+        keep_what_was_made(session, options, recipe, any_edit, error, tell);
         if (options.question)
             write_end_question(session, recipe, options, error, progress.silent());
         throw;

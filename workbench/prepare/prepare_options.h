@@ -1,8 +1,11 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
+
+#include <nlohmann/json_fwd.hpp>
 
 #include "workbench/prepare/input.h"
 
@@ -17,6 +20,9 @@ struct PrepareOptions {
     bool resume = false;                 ///< goes on in the folder's project
     std::string author;                  ///< of the edits; empty: the login name
     bool question = false;               ///< a doubt about vessel ends leaves kEndQuestion
+    /// Gets the diagnostics of a preparation that stops, with commands (refused_json); may be
+    /// empty.
+    std::function<void(const nlohmann::ordered_json&)> refused = {};
 };
 
 }  // namespace vesselbench

@@ -9,6 +9,7 @@
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/openings/vessel_check.h"
 #include "workbench/case/diagnostic_words.h"
+#include "workbench/case/purposes.h"
 #include "workbench/operations/table.h"
 #include "workbench/prepare/decided_entry.h"
 #include "workbench/prepare/extraction_entry.h"
@@ -64,10 +65,19 @@ SurfaceOrigin source_of(const Session& session) {
     return SurfaceOrigin::File;
 }
 
+bool is_for_flow(const std::string& variant) {
+    return std::ranges::any_of(purposes(), [&](const Purpose& purpose) {
+        return purpose.name == variant && purpose.simulates_flow;
+    });
+}
+
 /// \throw UnusableSource if there is nothing that a model could be made of
-void require_vessel(Session& session, const LogEntry& entry) {
+void require_vessel(Session& session, const LogEntry& entry, const std::string& variant) {
     try {
-        require_lumen(surface_of(session.scene_after(entry.edit.edit.id)), source_of(session));
+        const Scene scene = session.scene_after(entry.edit.edit.id);
+        const SurfaceOrigin source = source_of(session);
+        require_lumen(surface_of(scene), source);
+        if (is_for_flow(variant)) require_vessel_size(surface_of(scene), source);
     } catch (const InvalidInput& error) {
         throw UnusableSource(error.what());
     }
@@ -188,7 +198,7 @@ private:
         const Operation& operation = entry.given.operation();
         try {
             const LogEntry done = applied(entry, progress);
-            if (operation.recipe.proves_source) require_vessel(session_, done);
+            if (operation.recipe.proves_source) require_vessel(session_, done, variant_);
             tell_warnings(done);
             return done;
         } catch (const InvalidInput& error) {

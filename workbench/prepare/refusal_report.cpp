@@ -7,6 +7,8 @@
 #include "geometry/kernel/diagnosed_error.h"
 #include "workbench/case/diagnostic_json.h"
 #include "workbench/case/version.h"
+#include "workbench/operations/clip_opening/parameters.h"
+#include "workbench/operations/table.h"
 #include "workbench/prepare/case_files.h"
 
 namespace vesselbench {
@@ -15,21 +17,57 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json resume_command(const PrepareOptions& options) {
+/// The preparation again, with the arguments that say what the input is.
+Json prepare_command(const PrepareOptions& options) {
     Json command = {"vesselbench", "prepare", options.input.input};
-    if (!options.input.mask.empty()) command.insert(command.end(), {"--mask", options.input.mask});
-    if (!options.recipe.empty()) command.insert(command.end(), {"--recipe", options.recipe});
-    if (!options.author.empty()) command.insert(command.end(), {"--author", options.author});
-    if (!options.input.name.empty()) command.insert(command.end(), {"--name", options.input.name});
-    for (const char* part : {"--for", options.purpose.c_str(), "--out"}) command.push_back(part);
-    command.push_back(options.out.string());
-    command.push_back("--resume");
-    for (const std::string& setting : options.arguments)
-        if (setting.starts_with("clip-opening.")) {
-            command.push_back("--set");
-            command.push_back(setting);
-        }
+    const auto add = [&](const char* name, const std::string& value) {
+        if (!value.empty()) command.insert(command.end(), {name, value});
+    };
+    add("--mask", options.input.mask);
+    add("--mask-is", options.input.mask_is);
+    add("--label", options.input.label);
+    add("--units", options.input.units);
+    for (const std::string& neighbour : options.input.neighbours) add("--neighbour", neighbour);
+    add("--recipe", options.recipe);
+    add("--author", options.author);
+    add("--name", options.input.name);
+    add("--for", options.purpose);
+    add("--out", options.out.string());
     return command;
+}
+
+void add_setting(Json& command, const std::string& setting) {
+    command.insert(command.end(), {"--set", setting});
+}
+
+/// "clip-opening" of "clip-opening.open=1,2,3", and "open".
+std::string operation_of(const std::string& setting) {
+    return setting.substr(0, setting.find('.'));
+}
+
+std::string parameter_of_setting(const std::string& setting) {
+    const std::size_t from = operation_of(setting).size() + 1;
+    return setting.substr(std::min(from, setting.size()), setting.find('=') - from);
+}
+
+/// The remedy has the value. One that names ends by their places names all of them.
+bool replaces(const Remedy& remedy, const std::string& setting) {
+    if (remedy.operation != operation_of(setting)) return false;
+    const std::string name = parameter_of_setting(setting);
+    const auto names_ends = [&](const NumberParameter& p) {
+        return name == p.numbers || name == p.places;
+    };
+    const auto has_ends = [&](const NumberParameter& p) {
+        return remedy.arguments.contains(p.places);
+    };
+    return remedy.arguments.contains(name) || (std::ranges::any_of(kNumberParameters, names_ends) &&
+                                               std::ranges::any_of(kNumberParameters, has_ends));
+}
+
+/// True for an operation that reads the input: the preparation begins with it.
+bool reads_input(const std::string& name) {
+    const Operation* operation = known_operation(name);
+    return operation != nullptr && operation->recipe.loads.has_value();
 }
 
 std::string project_of(const PrepareOptions& options) {
@@ -59,20 +97,30 @@ Json edit_command(const PrepareOptions& options, const Remedy& remedy, std::int6
     return command;
 }
 
+/// True if the recipe has an entry that a setting is of.
+bool comes(const Recipe& rest, const std::string& setting) {
+    return std::ranges::any_of(rest, [&](const RecipeEntry& entry) {
+        return entry.given.operation().name == operation_of(setting);
+    });
+}
+
 /// \param remedy with its operation
-Json commands_of(const PrepareOptions& options, const Diagnostic& diagnostic,
+Json commands_of(const PrepareOptions& options, const Recipe& rest, const Diagnostic& diagnostic,
                  const Remedy& remedy) {
-    Json resume = resume_command(options), commands = Json::array();
+    Json again = prepare_command(options), commands = Json::array();
+    const bool resumes = !reads_input(diagnostic.operation);
+    if (resumes) again.push_back("--resume");
+    for (const std::string& setting : options.arguments)
+        if ((!resumes || comes(rest, setting)) && !replaces(remedy, setting))
+            add_setting(again, setting);
     if (remedy.before)
         commands.push_back(apply_command(options, remedy));
     else if (diagnostic.edit)
         commands.push_back(edit_command(options, remedy, *diagnostic.edit));
     else
-        for (const auto& [name, value] : remedy.arguments) {
-            resume.push_back("--set");
-            resume.push_back(remedy.operation + "." + name + "=" + value);
-        }
-    commands.push_back(std::move(resume));
+        for (const auto& [name, value] : remedy.arguments)
+            add_setting(again, remedy.operation + "." + name + "=" + value);
+    commands.push_back(std::move(again));
     return commands;
 }
 
@@ -80,34 +128,40 @@ Json commands_of(const PrepareOptions& options, const Diagnostic& diagnostic,
 bool has_commands(const Diagnostic& diagnostic, const Remedy& remedy) {
     if (remedy.action != RemedyAction::Give) return diagnostic.edit.has_value();
     const bool own = remedy.operation.empty() || remedy.operation == diagnostic.operation;
-    return (own || remedy.before) && !remedy.arguments.empty() &&
+    return (remedy.before || (own && !remedy.arguments.empty())) &&
            std::ranges::none_of(remedy.arguments,
                                 [](const auto& argument) { return argument.second.empty(); });
 }
 
 /// With the commands of each remedy.
-Json with_commands(const PrepareOptions& options, const Diagnostic& diagnostic) {
+Json with_commands(const PrepareOptions& options, const Diagnostic& diagnostic,
+                   const Recipe& rest) {
     Json json = diagnostic_json(diagnostic);
     for (std::size_t i = 0; i < diagnostic.remedies.size(); ++i) {
         Remedy remedy = diagnostic.remedies[i];
         if (!has_commands(diagnostic, remedy)) continue;
         if (remedy.operation.empty()) remedy.operation = diagnostic.operation;
-        json["remedies"][i]["commands"] = commands_of(options, diagnostic, remedy);
+        json["remedies"][i]["commands"] = commands_of(options, rest, diagnostic, remedy);
     }
     return json;
 }
 
 }  // namespace
 
-Json refusal_json(const PrepareOptions& options, const DiagnosedFailure& failure,
-                  const std::vector<std::string>& earlier_results) {
+Json refused_json(const PrepareOptions& options, const std::exception& error, const Recipe& rest) {
     Json diagnostics = Json::array();
-    for (const Diagnostic& diagnostic : failure.diagnostics())
-        diagnostics.push_back(with_commands(options, diagnostic));
-    return {{"program_version", version()},
-            {"purpose", options.purpose},
-            {"stopped", {{"text", failure.what()}, {"diagnostics", std::move(diagnostics)}}},
-            {"earlier_results", earlier_results}};
+    for (const Diagnostic& diagnostic : diagnostics_of(error))
+        diagnostics.push_back(with_commands(options, diagnostic, rest));
+    return diagnostics;
+}
+
+Json refusal_json(const PrepareOptions& options, const std::exception& error,
+                  const std::vector<std::string>& earlier_results, const Recipe& rest) {
+    return {
+        {"program_version", version()},
+        {"purpose", options.purpose},
+        {"stopped", {{"text", error.what()}, {"diagnostics", refused_json(options, error, rest)}}},
+        {"earlier_results", earlier_results}};
 }
 
 }  // namespace vesselbench

@@ -13,6 +13,7 @@
 #include "geometry/vessel/ends/stub_lines.h"
 #include "geometry/vessel/ends/surface_ends.h"
 #include "geometry/vessel/openings/cut_trial.h"
+#include "geometry/vessel/openings/end_arguments.h"
 
 namespace vesselbench {
 
@@ -172,10 +173,8 @@ FlowProblem flow_problem(const OpeningPlan& plan, bool accept_doubts) {
     return problem;
 }
 
-std::string points_text(const Positions& points) {
-    std::vector<std::string> texts;
-    for (const Vec3& point : points) texts.push_back(coordinates_argument(point));
-    return joined(texts, ",");
+std::map<std::string, std::string> named_in(const OpeningPlanOptions& options) {
+    return end_arguments(options.inlets, options.open, options.closed);
 }
 
 /// A remedy and what it does.
@@ -191,9 +190,8 @@ struct Advice {
 };
 
 /// The likelier choice as answers to all doubts at once, by the ends' numbers, so that a wrong one
-/// can be changed. Empty where ends were named already: numbers are those of a plan without names.
-Advice answers(const FlowProblem& problem, const OpeningPlanOptions& options) {
-    if (!options.inlets.empty() || !options.open.empty() || !options.closed.empty()) return {};
+/// can be changed.
+Advice answers_by_number(const FlowProblem& problem) {
     std::vector<std::string> open, closed;
     for (const EndRecord& end : problem.ends)
         if (end.verdict->doubtful)
@@ -210,9 +208,33 @@ Advice answers(const FlowProblem& problem, const OpeningPlanOptions& options) {
     return advice;
 }
 
-Advice closing(const Positions& closed) {
-    return {{{"closed", points_text(closed)}},
-            closed.size() == 1 ? "leaves it closed on purpose" : "leaves them closed on purpose"};
+/// The same by places, with those of the ends that were named already: numbers are those of a plan
+/// without names.
+Advice answers_by_place(const OpeningPlan& plan, const FlowProblem& problem,
+                        const OpeningPlanOptions& options) {
+    OpeningPlanOptions answered = options;
+    for (const EndRecord& end : problem.ends)
+        if (end.verdict->doubtful)
+            (has_opening(end) ? answered.open : answered.closed).push_back(end.place);
+    if (!problem.inlets.empty())
+        for (const EndRecord& end : plan.ends)
+            if (is_inlet(plan, end)) answered.inlets.push_back(end.place);
+    return {.arguments = named_in(answered),
+            .effect =
+                "answers as is likelier, and as before: a place that is wrong belongs to the "
+                "other list, open or closed"};
+}
+
+Advice answers(const OpeningPlan& plan, const FlowProblem& problem,
+               const OpeningPlanOptions& options) {
+    const bool named = !options.inlets.empty() || !options.open.empty() || !options.closed.empty();
+    return named ? answers_by_place(plan, problem, options) : answers_by_number(problem);
+}
+
+/// \param options with the closed ends
+Advice closing(const OpeningPlanOptions& options) {
+    return {named_in(options), options.closed.size() == 1 ? "leaves it closed on purpose"
+                                                          : "leaves them closed on purpose"};
 }
 
 /// One for each end; the first one has the text about all of them.
@@ -296,8 +318,7 @@ private:
             options.open.push_back(end.place);
             const Judgement found = judgement(options);
             if (found == Judgement::Good)
-                return {{{"open", points_text(options.open)}},
-                        options.open.size() == 1 ? "opens it" : "opens them"};
+                return {named_in(options), options.open.size() == 1 ? "opens it" : "opens them"};
             if (found == Judgement::Impossible) options.open.pop_back();
         }
         return {};
@@ -337,7 +358,7 @@ private:
             return {};
         OpeningPlanOptions options = options_;
         for (const EndRecord& end : problem_.ends) options.closed.push_back(end.place);
-        return judgement(options) == Judgement::Good ? closing(options.closed) : Advice{};
+        return judgement(options) == Judgement::Good ? closing(options) : Advice{};
     }
 
     /// A large tree takes seconds to plan.
@@ -365,7 +386,7 @@ void check_flow(const OpeningPlan& plan, const Surface& surface, const Centerlin
     if (problem.code.empty()) return;
     std::vector<Advice> ways;
     if (problem.doubts) {
-        ways = {answers(problem, options),
+        ways = {answers(plan, problem, options),
                 {{{"accept_doubts", "true"}}, "continues with the likelier choice"}};
         std::erase_if(ways, [](const Advice& advice) { return advice.arguments.empty(); });
     } else {
@@ -376,8 +397,8 @@ void check_flow(const OpeningPlan& plan, const Surface& surface, const Centerlin
     throw DiagnosedFailure(diagnostics_of(plan, problem, ways));
 }
 
-Remedy closing_remedy(const Positions& closed) {
-    return closing(closed).remedies().front();
+Remedy closing_remedy(const OpeningPlanOptions& options) {
+    return closing(options).remedies().front();
 }
 
 }  // namespace vesselbench

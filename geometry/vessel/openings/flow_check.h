@@ -21,8 +21,7 @@ namespace vesselbench {
 void check_flow(const OpeningPlan& plan, const Surface& surface, const CenterlineGraph& graph,
                 const OpeningPlanOptions& options, const Progress& progress = {});
 
-/// Leaves ends closed on purpose: clip-opening closed=1,2,3.
-/// \param closed all of them
-[[nodiscard]] Remedy closing_remedy(const Positions& closed);
+/// Leaves ends closed on purpose: clip-opening closed=1,2,3, with all ends that are named.
+[[nodiscard]] Remedy closing_remedy(const OpeningPlanOptions& options);
 
 }  // namespace vesselbench

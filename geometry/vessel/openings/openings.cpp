@@ -2,12 +2,17 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <numeric>
+#include <string>
+#include <utility>
 
 #include "geometry/kernel/diagnosed_error.h"
+#include "geometry/kernel/diagnostic_text.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
+#include "geometry/vessel/openings/end_arguments.h"
 #include "geometry/vessel/openings/end_opener.h"
 #include "geometry/vessel/openings/end_texts.h"
 #include "geometry/vessel/openings/named_ends.h"
@@ -91,12 +96,39 @@ private:
     /// \throw AlgorithmFailure if an end that was named is not open
     void require_wanted() {
         for (std::size_t e = 0; e < draft_.ends().size(); ++e)
-            if (draft_.is_wanted(e) && !draft_.is_open(e))
-                throw DiagnosedFailure({.code = "end-cannot-be-opened",
-                                        .operation = "clip-opening",
-                                        .place = draft_.ends()[e].centre,
-                                        .words = {{"end", draft_.is_inlet(e) ? "inlet" : "end"},
-                                                  {"why", draft_.record(e).why}}});
+            if (draft_.is_wanted(e) && !draft_.is_open(e)) refuse_wanted(e);
+    }
+
+    /// The trunk and an inlet cannot stay closed: a model that its blood does not enter is none.
+    [[noreturn]] void refuse_wanted(std::size_t e) const {
+        Diagnostic refusal{
+            .code = "end-cannot-be-opened",
+            .operation = "clip-opening",
+            .place = draft_.ends()[e].centre,
+            .words = {{"end", draft_.is_inlet(e) ? "inlet" : "end"}, {"why", why_not_open(e)}}};
+        if (draft_.is_inlet(e) || draft_.verdict(e).share >= 1.0)
+            refusal.words["advice"] =
+                "the image, the segmentation or the surface has to end across the vessel there: "
+                "crop it so, a little farther inward";
+        else
+            refusal.remedies = {{.arguments = with_closed(e)}};
+        throw DiagnosedFailure(std::move(refusal));
+    }
+
+    /// What was named, but that the end stays closed.
+    [[nodiscard]] std::map<std::string, std::string> with_closed(std::size_t e) const {
+        Positions open = draft_.options().open, closed = draft_.options().closed;
+        std::erase_if(open, [&](const Vec3& p) { return end_near(draft_.ends(), p) == e; });
+        closed.push_back(draft_.ends()[e].centre);
+        return end_arguments(draft_.options().inlets, open, closed);
+    }
+
+    /// An opening that was planned and could not be made says more than why there is no other.
+    [[nodiscard]] std::string why_not_open(std::size_t e) const {
+        const double same = 1e-6 * (1.0 + draft_.ends()[e].diameter);
+        for (const FailedCut& failed : draft_.options().failed)
+            if ((failed.tip - draft_.tip_place(e)).norm() < same) return text_of(failed.why);
+        return draft_.record(e).why;
     }
 
     PlanDraft& draft_;

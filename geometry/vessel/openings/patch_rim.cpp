@@ -4,6 +4,7 @@
 #include <map>
 
 #include "geometry/kernel/diagnosed_error.h"
+#include "geometry/vessel/ends/patch_shape.h"
 
 namespace vesselbench {
 
@@ -11,8 +12,8 @@ namespace {
 
 [[noreturn]] void fail(const Surface& surface, std::size_t patch) {
     throw DiagnosedFailure({.code = "cap-not-a-disc",
-                            .words = {{"cap", surface.patches.at(patch).name}},
-                            .remedies = {{.operation = "clip-opening"}}});
+                            .place = patch_shape(surface, patch).plane.point,
+                            .words = {{"cap", surface.patches.at(patch).name}}});
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "geometry/editing/hole_filling.h"
@@ -20,6 +21,9 @@ constexpr double kSlimmest = 1000.0;
 constexpr std::size_t kMostLoops = 100;
 constexpr std::size_t kTrianglesPerLoop = 500;
 constexpr double kShortestTube = 1.5;  // diameters
+/// All chambers of a heart with the great vessels hold about one litre [mm^3].
+constexpr double kLargestLumen = 2e6;
+constexpr double kLitre = 1e6;  // [mm^3]
 
 /// True if a branch is a tube without the furcations at its ends.
 bool is_tube(const CenterlineGraph& graph, std::size_t index) {
@@ -46,6 +50,20 @@ Diagnostic noise(double loops, SurfaceOrigin source) {
             .figures = {{"loops", loops}},
             .remedies = {{.operation = "extract-surface", .arguments = {{"threshold", ""}}},
                          {.operation = "load-image", .arguments = {{"mask", ""}}}}};
+}
+
+/// What makes a vessel of such a source.
+std::string way_to_vessel(SurfaceOrigin source) {
+    switch (source) {
+        case SurfaceOrigin::Mask:
+            return "choose the vessel among the labels, or segment it";
+        case SurfaceOrigin::File:
+            return "export the vessel alone, and check the file's unit";
+        case SurfaceOrigin::Intensities:
+            break;
+    }
+    return "no threshold separates a vessel from all else in such an image: segment it, for "
+           "instance in 3D Slicer, and give the segmentation with --mask";
 }
 
 }  // namespace
@@ -77,6 +95,15 @@ void require_lumen(const Surface& surface, SurfaceOrigin source) {
     if (loops > static_cast<int>(kMostLoops) &&
         static_cast<std::size_t>(loops) * kTrianglesPerLoop > surface.triangle_count())
         throw DiagnosedInput(noise(static_cast<double>(loops), source));
+}
+
+void require_vessel_size(const Surface& surface, SurfaceOrigin source) {
+    if (surface.empty()) return;
+    const double volume = closed_volume(surface);
+    if (volume > kLargestLumen)
+        throw DiagnosedInput({.code = "larger-than-vessels",
+                              .figures = {{"litres", volume / kLitre}},
+                              .words = {{"way", way_to_vessel(source)}}});
 }
 
 bool has_tube(const CenterlineGraph& graph) {

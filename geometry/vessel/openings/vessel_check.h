@@ -13,6 +13,11 @@ enum class SurfaceOrigin { Intensities, Mask, File };
 /// \throw InvalidInput; the text says which it is, with its figures and what may help such a source
 void require_lumen(const Surface& surface, SurfaceOrigin source = SurfaceOrigin::Intensities);
 
+/// Refuses as a model for a flow what encloses more than a heart with the great vessels: the body
+/// or an organ of an image without a mask.
+/// \throw InvalidInput; the text says what may help such a source
+void require_vessel_size(const Surface& surface, SurfaceOrigin source = SurfaceOrigin::Intensities);
+
 /// Volume enclosed by a surface whose open borders are closed by fans [mm^3].
 [[nodiscard]] double closed_volume(const Surface& surface);
 

@@ -27,6 +27,7 @@ class Remedy(Result):
     arguments: Mapping[str, str]
     before: bool = False  #: as an edit before the one that failed
     action: str = "give"  #: give these arguments; remove the edit; choose-again: without its earlier choices
+    commands: tuple[tuple[str, ...], ...] = ()  #: of prepare: run one after the other, they do it
 
 
 @dataclass(frozen=True)

@@ -92,13 +92,13 @@ void require_tube(const Surface& surface, const CenterlineGraph& graph) {
 
 [[noreturn]] void give_up(const FailedCut& failed, const OpeningPlanOptions& options) {
     if (options.tip) throw DiagnosedFailure(failed.why);
-    Positions closed = options.closed;
-    closed.push_back(failed.tip);
+    OpeningPlanOptions without = options;
+    without.closed.push_back(failed.tip);
     throw DiagnosedFailure({.code = "end-not-cut",
                             .operation = "clip-opening",
                             .place = failed.tip,
                             .words = {{"why", text_of(failed.why)}},
-                            .remedies = {closing_remedy(closed)}});
+                            .remedies = {closing_remedy(without)}});
 }
 
 /// A branch that gets a line may show further ones without.

@@ -2,10 +2,13 @@
 
 #include <filesystem>
 #include <utility>
+#include <vector>
 
 #include "geometry/formats/length_unit.h"
 #include "geometry/formats/surface_file.h"
+#include "geometry/formats/unit_readings.h"
 #include "geometry/kernel/diagnosed_error.h"
+#include "geometry/kernel/wording.h"
 
 namespace vesselbench {
 
@@ -48,6 +51,19 @@ std::optional<Diagnostic> unlikely_unit(const SurfaceArgument& read, LengthUnit 
                       .remedies = {{.arguments = {{"units", to_string(guess.unit)}}}}};
 }
 
+/// \param doubt with the readings, each of which is an answer
+Diagnostic unit_in_doubt(const std::string& operation, const std::string& doubt) {
+    Diagnostic question{
+        .code = "unit-in-doubt", .operation = operation, .words = {{"doubt", doubt}}};
+    std::vector<std::string> options;
+    for (const LengthUnit unit : units_read(doubt)) {
+        question.remedies.push_back({.arguments = {{"units", to_string(unit)}}});
+        options.push_back("--units " + to_string(unit));
+    }
+    question.words["options"] = enumerated(options, "or");
+    return question;
+}
+
 /// None: as the file states it.
 std::optional<PatientAxes> given_axes(const Arguments& arguments) {
     return axes_named(arguments.text("space"));
@@ -55,7 +71,8 @@ std::optional<PatientAxes> given_axes(const Arguments& arguments) {
 
 }  // namespace
 
-SurfaceArgument read_surface_argument(const Arguments& arguments, Outcome& outcome) {
+SurfaceArgument read_surface_argument(const std::string& operation, const Arguments& arguments,
+                                      Outcome& outcome) {
     const std::string path = arguments.text("file"), units = arguments.text("units");
     const bool open = units == "auto" || units == "guess";
     SurfaceFile file = read_surface(
@@ -75,10 +92,7 @@ SurfaceArgument read_surface_argument(const Arguments& arguments, Outcome& outco
     if (file.unit_doubt.empty()) return read;
     read.unit_doubt =
         read.name + " does not state its unit: " + file.unit_doubt + "; both can be a vessel";
-    if (units == "auto")
-        throw DiagnosedUsage({.code = "unit-in-doubt",
-                              .words = {{"doubt", read.unit_doubt}},
-                              .remedies = {{.arguments = {{"units", ""}}}}});
+    if (units == "auto") throw DiagnosedUsage(unit_in_doubt(operation, read.unit_doubt));
     outcome.warnings.push_back(
         {.code = "unit-guessed",
          .words = {{"file", read.name}, {"doubt", file.unit_doubt}, {"units", read.units}},

@@ -24,7 +24,9 @@ struct SurfaceArgument {
 
 /// Reads the file; unit and axes go into the outcome's resolved arguments, doubts about a guessed
 /// one into the warnings.
+/// \param operation that reads it
 /// \throw UsageError for units=auto if two units are nearly as plausible; as read_surface
-[[nodiscard]] SurfaceArgument read_surface_argument(const Arguments& arguments, Outcome& outcome);
+[[nodiscard]] SurfaceArgument read_surface_argument(const std::string& operation,
+                                                    const Arguments& arguments, Outcome& outcome);
 
 }  // namespace vesselbench
