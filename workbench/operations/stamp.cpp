@@ -1,7 +1,11 @@
 #include "meshing/stamp/stamp.h"
 
+#include <cmath>
+
 #include <nlohmann/json.hpp>
 
+#include "geometry/kernel/measure.h"
+#include "workbench/case/stated_change.h"
 #include "workbench/operations/stamp/tool.h"
 #include "workbench/operations/table.h"
 
@@ -63,6 +67,23 @@ std::vector<Parameter> stamp_parameters() {
     return table;
 }
 
+constexpr double kRoom = 4.0;     ///< around a tool, in which triangles change [influences]
+constexpr double kFaired = 0.02;  ///< of the volume, by which faired seams go the other way [-]
+
+/// Within reach of the tool, what is subtracted is lost, or what is added is gained.
+StatedChange stamped(const Scene& before, const Outcome& outcome) {
+    const ToolBody tool = tool_from(outcome.resolved);
+    const double around = kRoom * outcome.report->at("influence_mm").get<double>();
+    StatedChange stated{.zones = {{{tool.centre, tool.reach + around}}},
+                        .parts = kAnyGain,
+                        .handles = kAnyGrowth,
+                        .keeps_walls_apart = true};
+    const double faired = kFaired * std::abs(volume(surface_of(before)));
+    (outcome.resolved.text("mode") == "subtract" ? stated.volume_gained : stated.volume_lost) =
+        faired;
+    return stated;
+}
+
 }  // namespace
 
 Operation stamp_operation() {
@@ -76,6 +97,7 @@ Operation stamp_operation() {
             .parameters = stamp_parameters(),
             .run = &run,
             .decided = &decided_tool,
+            .may_change = &stamped,
             .thesis = "4.2.5",
             .example = {.placed = {"at"},
                         .given = {{"shape", std::string("capsule")},

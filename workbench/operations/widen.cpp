@@ -5,6 +5,7 @@
 #include "geometry/kernel/diagnosed_error.h"
 #include "smoothing/filters/new_crossings.h"
 #include "workbench/case/point_json.h"
+#include "workbench/case/stated_change.h"
 #include "workbench/operations/shared/crossing_warning.h"
 #include "workbench/operations/table.h"
 
@@ -78,6 +79,20 @@ Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) 
     return outcome;
 }
 
+/// Walls that are folded beside each other are narrow places that were not there.
+StatedChange widened_lumen(const Scene&, const Outcome& outcome) {
+    StatedChange stated{.keeps_triangles = true};
+    const Json &before = outcome.report->at("places"), &after = outcome.report->at("still_narrow");
+    if (after.size() <= before.size()) return stated;
+    stated.doubt = {.code = "widening-makes-narrow",
+                    .place = point_from(after.front().at("place_mm")),
+                    .figures = {{"limit_mm", outcome.resolved.real("width")},
+                                {"before", static_cast<double>(before.size())},
+                                {"after", static_cast<double>(after.size())}},
+                    .remedies = {{.arguments = {{"width", ""}}}, {.operation = "brush-inflate"}}};
+    return stated;
+}
+
 }  // namespace
 
 Operation widen_operation() {
@@ -97,6 +112,7 @@ Operation widen_operation() {
                             .above_minimum = true}},
             .run = &run,
             .decided = &decided_width,
+            .may_change = &widened_lumen,
             .thesis = "4.2.4",
             .example = {.given = {{"width", 2.25}}, .changed = {{"width", 2.375}}}};
 }

@@ -1,0 +1,183 @@
+#include "workbench/session/overreach.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "geometry/kernel/derived_cache.h"
+#include "geometry/kernel/measure.h"
+#include "geometry/kernel/self_intersections.h"
+#include "geometry/kernel/surface_distance.h"
+#include "workbench/session/changed_wall.h"
+
+namespace vesselbench {
+
+namespace {
+
+using Finding = std::optional<Diagnostic>;
+
+Diagnostic error(const char* code, std::optional<Vec3> place,
+                 std::map<std::string, double> figures) {
+    return {.code = code,
+            .severity = Severity::Error,
+            .place = std::move(place),
+            .figures = std::move(figures)};
+}
+
+/// Of a topology; that after one edit is that before the next.
+Connectivity connectivity_of(const Topology& topology) {
+    return *derived_cache().find_or_make<Connectivity>(
+        "connectivity", topology.key(), [&] { return connectivity(topology); },
+        [](const Connectivity& made) { return sizeof made; });
+}
+
+bool same_triangles(const Surface& a, const Surface& b) {
+    return a.topology == b.topology || (a.vertex_count() == b.vertex_count() &&
+                                        std::ranges::equal(a.triangles(), b.triangles()));
+}
+
+Finding growth_beyond(const AllowedGrowth& allowed, const char* code, std::int64_t before,
+                      std::int64_t after) {
+    const std::int64_t growth = after - before;
+    if (growth >= allowed.least && growth <= allowed.most) return std::nullopt;
+    return error(code, {},
+                 {{"before", static_cast<double>(before)}, {"after", static_cast<double>(after)}});
+}
+
+Finding topology_beyond(const StatedChange& stated, const Surface& before, const Surface& after) {
+    if (same_triangles(before, after)) return std::nullopt;
+    if (stated.keeps_triangles)
+        return error("edit-changes-triangles", {},
+                     {{"before", static_cast<double>(before.triangle_count())},
+                      {"after", static_cast<double>(after.triangle_count())}});
+    const Connectivity was = connectivity_of(*before.topology),
+                       is = connectivity_of(*after.topology);
+    const auto number = [](std::size_t count) { return static_cast<std::int64_t>(count); };
+    if (auto found = growth_beyond(stated.parts, "edit-changes-parts", number(was.components),
+                                   number(is.components)))
+        return found;
+    if (auto found = growth_beyond(stated.rims, "edit-changes-rims", number(was.boundary_loops),
+                                   number(is.boundary_loops)))
+        return found;
+    if (!was.genus || !is.genus) return std::nullopt;  // of what is no manifold, none is known
+    return growth_beyond(stated.handles, "edit-changes-handles", *was.genus, *is.genus);
+}
+
+Finding zone_beyond(const StatedChange& stated, const Surface& before, const Surface& after) {
+    if (!stated.zones) return std::nullopt;
+    const auto place = change_outside(before, after, *stated.zones);
+    if (!place) return std::nullopt;
+    return error("edit-leaves-zone", place, {});
+}
+
+Finding volume_beyond(const StatedChange& stated, const Surface& before, const Surface& after) {
+    if (std::isinf(stated.volume_lost) && std::isinf(stated.volume_gained)) return std::nullopt;
+    const double was = volume(before), is = volume(after);
+    if (is - was <= stated.volume_gained && was - is <= stated.volume_lost) return std::nullopt;
+    return error("edit-changes-volume", {},
+                 {{"before_mm3", was},
+                  {"after_mm3", is},
+                  {"stated_mm3", is > was ? stated.volume_gained : stated.volume_lost}});
+}
+
+/// Vertices of the flagged triangles, each once.
+Positions corners_of(const Surface& surface, const std::vector<std::uint8_t>& flagged) {
+    std::vector<std::uint8_t> seen(surface.vertex_count(), 0);
+    Positions corners;
+    for (TriangleId t = 0; t < flagged.size(); ++t)
+        if (flagged[t])
+            for (const VertexId v : surface.triangles()[t])
+                if (!std::exchange(seen[v], 1)) corners.push_back(surface.points()[v]);
+    return corners;
+}
+
+Finding wall_beyond(const StatedChange& stated, const Surface& before, const Surface& after) {
+    if (std::isinf(stated.wall_lost)) return std::nullopt;
+    const Positions gone = corners_of(before, triangles_missing_in(after, before, stated.zones));
+    if (gone.empty()) return std::nullopt;
+    const std::vector<SurfacePoint> nearest = distance_to(after).closest_points(gone);
+    const auto farthest = std::ranges::max_element(nearest, {}, &SurfacePoint::distance);
+    if (farthest->distance <= stated.wall_lost) return std::nullopt;
+    return error("edit-loses-wall", gone[static_cast<std::size_t>(farthest - nearest.begin())],
+                 {{"distance_mm", farthest->distance}, {"stated_mm", stated.wall_lost}});
+}
+
+/// Triangles of the surface whose boxes meet that of the flagged ones, with the flags.
+struct Nearby {
+    std::vector<Triangle> triangles;
+    std::vector<std::uint8_t> flagged;
+};
+
+Nearby near_flagged(const Surface& surface, const std::vector<std::uint8_t>& flagged) {
+    const Positions corners = corners_of(surface, flagged);
+    Nearby near;
+    if (corners.empty()) return near;
+    const Bounds box = bounds(corners);
+    for (TriangleId t = 0; t < flagged.size(); ++t) {
+        const auto& [a, b, c] = surface.triangles()[t];
+        const Vec3 &p = surface.points()[a], &q = surface.points()[b], &r = surface.points()[c];
+        const bool meets = (p.cwiseMin(q).cwiseMin(r).array() <= box.max.array()).all() &&
+                           (p.cwiseMax(q).cwiseMax(r).array() >= box.min.array()).all();
+        if (!meets) continue;
+        near.triangles.push_back(surface.triangles()[t]);
+        near.flagged.push_back(flagged[t]);
+    }
+    return near;
+}
+
+struct Crossings {
+    std::size_t pairs = 0;
+    Vec3 first = Vec3::Zero();  ///< [mm]
+};
+
+Crossings crossings_of(const Surface& surface, const std::vector<std::uint8_t>& flagged,
+                       const Progress& progress) {
+    const Nearby near = near_flagged(surface, flagged);
+    const auto pairs =
+        self_intersections_with(surface.points(), near.triangles, near.flagged, progress);
+    if (pairs.empty()) return {};
+    return {pairs.size(), surface.points()[near.triangles[pairs.front().first][0]]};
+}
+
+Finding crossings_beyond(const StatedChange& stated, const Surface& before, const Surface& after,
+                         const Progress& progress) {
+    if (!stated.keeps_walls_apart) return std::nullopt;
+    const Crossings now =
+        crossings_of(after, triangles_missing_in(before, after, stated.zones), progress);
+    if (now.pairs == 0) return std::nullopt;
+    const Crossings old =
+        crossings_of(before, triangles_missing_in(after, before, stated.zones), progress);
+    if (now.pairs <= old.pairs) return std::nullopt;
+    return error(
+        "edit-crosses-walls", now.first,
+        {{"before", static_cast<double>(old.pairs)}, {"after", static_cast<double>(now.pairs)}});
+}
+
+bool has_surface(const Scene& scene) {
+    return scene.surface && !scene.surface->empty();
+}
+
+}  // namespace
+
+std::optional<Diagnostic> overreach(const StatedChange& stated, const Scene& before,
+                                    const Scene& after, const Progress& progress) {
+    if (stated.doubt) {
+        Diagnostic doubt = *stated.doubt;
+        doubt.severity = Severity::Error;
+        return doubt;
+    }
+    if (!has_surface(before) || !has_surface(after)) return std::nullopt;
+    const Surface &was = *before.surface, &is = *after.surface;
+    if (was.topology == is.topology && was.positions == is.positions) return std::nullopt;
+    if (auto found = topology_beyond(stated, was, is)) return found;
+    progress.check_cancelled();
+    if (auto found = zone_beyond(stated, was, is)) return found;
+    if (auto found = volume_beyond(stated, was, is)) return found;
+    if (auto found = wall_beyond(stated, was, is)) return found;
+    progress.check_cancelled();
+    return crossings_beyond(stated, was, is, progress);
+}
+
+}  // namespace vesselbench
