@@ -1,7 +1,7 @@
 // Parts vessels whose contact is not alone: a sac, a furcation or a third vessel is beside it.
 // Prints what became of each as one JSON line: bench_crowded separate|stamp|widen
-// sac|furcation|third FIRST LAST. With VESSELBENCH_DUMP=FOLDER, the surfaces before and after are
-// written there.
+// sac|furcation|third|thread FIRST LAST. With VESSELBENCH_DUMP=FOLDER, the surfaces before and
+// after are written there.
 
 #include <cstdio>
 #include <cstdlib>
@@ -30,6 +30,7 @@ constexpr double kMostVolume = 0.1;  ///< that a right result may lose or gain [
 
 Crowd crowd_from(const std::string& name) {
     if (name == "sac") return Crowd::Sac;
+    if (name == "thread") return Crowd::Thread;
     return name == "furcation" ? Crowd::Furcation : Crowd::Third;
 }
 
@@ -39,7 +40,7 @@ void dump(const Surface& surface, const std::string& name) {
 }
 
 Arguments arguments_for(const std::string& operation, const CrowdedContact& contact) {
-    if (operation == "widen") return {{"width", 0.8}};
+    if (operation == "widen") return {{"width", 1.0}};
     return {{"at", contact.place}};
 }
 
@@ -56,8 +57,8 @@ Json facts(const CrowdedContact& contact, const Surface& after) {
 }
 
 Json line_of(const std::string& name, const std::string& crowd, int number) {
-    const CrowdedContact contact =
-        crowded_contact(crowd_from(crowd), static_cast<std::uint64_t>(number));
+    const CrowdedContact contact = crowded_contact(
+        crowd_from(crowd), static_cast<std::uint64_t>(number), crowd == "thread" ? 0.25 : 0.4);
     const std::string file = crowd + std::to_string(number);
     dump(contact.surface, file + "_before.ply");
     Json line = {{"crowd", crowd},
@@ -80,6 +81,10 @@ Json line_of(const std::string& name, const std::string& crowd, int number) {
         dump(*outcome.scene.surface, file + "_after.ply");
         for (const char* figure : {"waist", "lost_height_mm", "radius_a_mm", "radius_b_mm"})
             if (outcome.report->contains(figure)) line[figure] = outcome.report->at(figure);
+        if (name == "widen") {
+            line["places"] = outcome.report->at("places").size();
+            line["still_narrow"] = outcome.report->at("still_narrow").size();
+        }
         line.update(facts(contact, *outcome.scene.surface));
         start = std::clock();
         const auto excess = overreach_of(operation, scene, outcome, progress);
@@ -97,8 +102,9 @@ Json line_of(const std::string& name, const std::string& crowd, int number) {
 
 int main(int count, char** arguments) {
     if (count != 5)
-        return std::fputs("bench_crowded separate|stamp|widen sac|furcation|third FIRST LAST\n",
-                          stderr),
+        return std::fputs(
+                   "bench_crowded separate|stamp|widen sac|furcation|third|thread FIRST LAST\n",
+                   stderr),
                2;
     for (int number = std::atoi(arguments[3]); number <= std::atoi(arguments[4]); ++number) {
         std::puts(line_of(arguments[1], arguments[2], number).dump().c_str());

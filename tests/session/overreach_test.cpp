@@ -4,7 +4,8 @@
 #include "workbench/session/overreach.h"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
+#include <functional>
 #include <string>
 
 #include <catch2/catch.hpp>
@@ -75,6 +76,11 @@ Surface changed(const Surface& surface, const std::string& how) {
     if (how == "a part") return without(surface, [](const Vec3& p) { return p.x() > 15.0; });
     if (how == "a hole") return without(surface, [](const Vec3& p) { return p.z() > 9.9; });
     if (how == "a sac" || how == "volume") return flattened(surface);
+    if (how == "rubble")
+        return with_moved(surface, [](const Vec3& p) {
+            const double spike = 1.0 + 0.3 * std::sin(40.0 * p.x() + 30.0 * p.y());
+            return (p - kPole).norm() < kZone ? Vec3(spike * p) : p;
+        });
     if (how == "a crossing") return lifted(kPole, {0, 0, -21});
     return surface;
 }
@@ -84,6 +90,7 @@ StatedChange stated(const std::string& how) {
     if (how == "volume") stated.volume_lost = kStated;
     if (how == "a sac" || how == "as stated") stated.wall_lost = kStated;
     if (how == "triangles") stated.keeps_triangles = true;
+    if (how == "rubble") stated.folded = 0.01;
     if (how == "a doubt") stated.doubt = plain_text("its own figures speak against it");
     return stated;
 }
@@ -136,6 +143,7 @@ SCENARIO("A change of a surface is compared with what was stated", "[session][ov
     CHECK(caught("a sac") == "edit-loses-wall");
     CHECK(caught("volume") == "edit-changes-volume");
     CHECK(caught("a crossing") == "edit-crosses-walls");
+    CHECK(caught("rubble") == "edit-folds-wall");
     CHECK(caught("triangles") == "edit-changes-triangles");
     CHECK(caught("a doubt") == kPlainText);
 }

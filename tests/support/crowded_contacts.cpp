@@ -62,8 +62,9 @@ Vec3 at_angle(double degrees) {
     return {std::cos(angle), std::sin(angle), 0.0};
 }
 
-constexpr double kPoint = 1e-6;  ///< length of what is a sphere [mm]
-constexpr double kHalf = 14.0;   ///< of a vessel's length [mm]
+constexpr double kPoint = 1e-6;    ///< length of what is a sphere [mm]
+constexpr double kThinnest = 0.5;  ///< radius of a vessel [mm]
+constexpr double kHalf = 14.0;     ///< of a vessel's length [mm]
 
 Plan sac_plan(Draw& draw) {
     const double parent = draw.in(1.5, 2.5), dome = parent * draw.in(0.9, 2.0),
@@ -116,8 +117,19 @@ Plan third_plan(Draw& draw) {
     return plan;
 }
 
+Plan thread_plan(Draw& draw) {
+    const double first = draw.in(1.2, 2.2), second = draw.in(1.0, 2.0), gap = draw.in(1.0, 3.0);
+    const double apart = first + gap + second;
+    Plan plan{.own = {through(Vec3::Zero(), Vec3::UnitX(), kHalf, first)}};
+    plan.other = {through({0, 0, apart}, at_angle(draw.in(0.0, 90.0)), kHalf, second),
+                  {{0, 0, 0}, {0, 0, apart}, draw.in(0.2, 0.4)}};
+    plan.place = {0, 0, first + 0.5 * gap};
+    return plan;
+}
+
 Plan plan_of(Crowd crowd, Draw& draw) {
     if (crowd == Crowd::Sac) return sac_plan(draw);
+    if (crowd == Crowd::Thread) return thread_plan(draw);
     return crowd == Crowd::Furcation ? furcation_plan(draw) : third_plan(draw);
 }
 
@@ -140,8 +152,9 @@ CrowdedContact crowded_contact(Crowd crowd, std::uint64_t number, double cell) {
                 box.extend(Vec3(p.array() - tube.radius - 1.0));
                 box.extend(Vec3(p.array() + tube.radius + 1.0));
             }
+            if (tube.radius < kThinnest) continue;  // a thread, which ends in the vessels
             made.thinnest = std::min(made.thinnest, tube.radius);
-            if ((tube.from - tube.to).norm() < 1.0) continue;  // a sac
+            if ((tube.from - tube.to).norm() < tube.radius) continue;  // a sac
             // Vessels join at the origin.
             if (tube.from != Vec3::Zero()) made.kept.push_back(tube.tip(true));
             if (tube.to != Vec3::Zero()) made.kept.push_back(tube.tip(false));

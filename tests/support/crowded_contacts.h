@@ -10,7 +10,8 @@ namespace vesselbench::test {
 enum class Crowd : std::uint8_t {
     Sac,        ///< it is no vessel but the dome of a sac that touches the other one
     Furcation,  ///< one of the vessels branches near by
-    Third       ///< another vessel passes both
+    Third,      ///< another vessel passes both
+    Thread      ///< there is no contact, but a thread from one vessel to the other
 };
 
 /// Two vessels that are blended where they touch, and something that must not be lost there.

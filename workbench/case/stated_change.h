@@ -41,6 +41,10 @@ struct StatedChange {
     /// that is lost lies farther away.
     double wall_lost = std::numeric_limits<double>::infinity();
     bool keeps_walls_apart = false;  ///< no more triangles cross where it changed something
+    /// Share of the edges where it moved wall along which it may fold the wall over [-]: folds are
+    /// what turns a wall into rubble. Asked only if the triangles stay.
+    double folded = 1.0;
+    std::vector<Remedy> remedies = {};  ///< what to try if the outcome is refused
     /// What the operation's own figures hold against its outcome, which is refused for it.
     std::optional<Diagnostic> doubt = {};
 };

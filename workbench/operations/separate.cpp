@@ -114,21 +114,24 @@ constexpr double kWidest = 1.05;  ///< waist [-]
 constexpr double kHighest = 0.6;  ///< height of what is lost [radii of the thinner vessel]
 constexpr double kLost = 1.0;     ///< distance of what is lost from the new walls [the same]
 
+std::vector<Remedy> another_place() {
+    return {{.arguments = {{"at", ""}}}, {.operation = "stamp"}};
+}
+
 std::optional<Diagnostic> doubt_about(const Json& figures) {
     const double width = figures.at("contact_width_mm").get<double>(),
                  waist = figures.at("waist").get<double>(),
                  height = figures.at("lost_height_mm").get<double>();
-    const std::vector<Remedy> remedies = {{.arguments = {{"at", ""}}}, {.operation = "stamp"}};
     if (waist > kWidest)
         return Diagnostic{.code = "contact-too-wide",
                           .place = point_from(figures.at("contact_mm")),
                           .figures = {{"width_mm", width}, {"diameter_mm", width / waist}},
-                          .remedies = remedies};
+                          .remedies = another_place()};
     if (height > 0.5 * kHighest * width / waist)
         return Diagnostic{.code = "contact-not-alone",
                           .place = point_from(figures.at("lost_height_at_mm")),
                           .figures = {{"height_mm", height}},
-                          .remedies = remedies};
+                          .remedies = another_place()};
     return std::nullopt;
 }
 
@@ -144,6 +147,7 @@ StatedChange parted_vessels(const Scene&, const Outcome& outcome) {
             .handles = {-1, 0},
             .wall_lost = kLost * thinner + figures.at("gap_mm").get<double>(),
             .keeps_walls_apart = true,
+            .remedies = another_place(),
             .doubt = doubt_about(figures)};
 }
 

@@ -155,6 +155,61 @@ Finding crossings_beyond(const StatedChange& stated, const Surface& before, cons
         {{"before", static_cast<double>(old.pairs)}, {"after", static_cast<double>(now.pairs)}});
 }
 
+constexpr double kFold = 0.0;         ///< cosine between the triangles at a folded edge
+constexpr std::size_t kFewFolds = 5;  ///< a few are no rubble
+
+/// The triangle on the other side of the edge from a to b; none: it is no inner edge.
+std::optional<TriangleId> across(const Surface& surface, TriangleId t, VertexId a, VertexId b) {
+    for (const TriangleId other : surface.topology->triangles_at().row(a))
+        if (other != t && std::ranges::count(surface.triangles()[other], b) > 0) return other;
+    return std::nullopt;
+}
+
+bool is_folded(const Surface& surface, TriangleId s, TriangleId t) {
+    const Vec3 one = area_normal(surface.points(), surface.triangles()[s]),
+               other = area_normal(surface.points(), surface.triangles()[t]);
+    return one.dot(other) < kFold * one.norm() * other.norm();
+}
+
+Finding folds_beyond(const StatedChange& stated, const Surface& before, const Surface& after) {
+    if (stated.folded >= 1.0 || !same_triangles(before, after)) return std::nullopt;
+    std::size_t edges = 0, folded = 0;
+    Vec3 place = Vec3::Zero();
+    const auto moved = [&](VertexId v) { return before.points()[v] != after.points()[v]; };
+    for (TriangleId t = 0; t < after.triangle_count(); ++t) {
+        const Triangle& corners = after.triangles()[t];
+        if (std::ranges::none_of(corners, moved)) continue;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const VertexId a = corners[k], b = corners[(k + 1) % 3];
+            const auto other = across(after, t, a, b);
+            if (!other) continue;
+            ++edges;
+            if (!is_folded(after, t, *other) || is_folded(before, t, *other)) continue;
+            if (folded++ == 0) place = after.points()[a];
+        }
+    }
+    // Most edges are met from both sides.
+    if (folded <= 2 * kFewFolds ||
+        static_cast<double>(folded) <= stated.folded * static_cast<double>(edges))
+        return std::nullopt;
+    return error(
+        "edit-folds-wall", place,
+        {{"edges", static_cast<double>(folded / 2)},
+         {"share_percent", 100.0 * static_cast<double>(folded) / static_cast<double>(edges)}});
+}
+
+Finding beyond(const StatedChange& stated, const Surface& before, const Surface& after,
+               const Progress& progress) {
+    if (auto found = topology_beyond(stated, before, after)) return found;
+    progress.check_cancelled();
+    if (auto found = zone_beyond(stated, before, after)) return found;
+    if (auto found = volume_beyond(stated, before, after)) return found;
+    if (auto found = wall_beyond(stated, before, after)) return found;
+    if (auto found = folds_beyond(stated, before, after)) return found;
+    progress.check_cancelled();
+    return crossings_beyond(stated, before, after, progress);
+}
+
 bool has_surface(const Scene& scene) {
     return scene.surface && !scene.surface->empty();
 }
@@ -171,13 +226,9 @@ std::optional<Diagnostic> overreach(const StatedChange& stated, const Scene& bef
     if (!has_surface(before) || !has_surface(after)) return std::nullopt;
     const Surface &was = *before.surface, &is = *after.surface;
     if (was.topology == is.topology && was.positions == is.positions) return std::nullopt;
-    if (auto found = topology_beyond(stated, was, is)) return found;
-    progress.check_cancelled();
-    if (auto found = zone_beyond(stated, was, is)) return found;
-    if (auto found = volume_beyond(stated, was, is)) return found;
-    if (auto found = wall_beyond(stated, was, is)) return found;
-    progress.check_cancelled();
-    return crossings_beyond(stated, was, is, progress);
+    Finding found = beyond(stated, was, is, progress);
+    if (found) found->remedies = stated.remedies;
+    return found;
 }
 
 }  // namespace vesselbench
