@@ -1,7 +1,7 @@
 // Parts vessels whose contact is not alone: a sac, a furcation or a third vessel is beside it.
 // Prints what became of each as one JSON line: bench_crowded separate|stamp|widen
-// sac|furcation|third|thread FIRST LAST. With VESSELBENCH_DUMP=FOLDER, the surfaces before and
-// after are written there.
+// sac|furcation|third|thread FIRST LAST [CELL]. With VESSELBENCH_DUMP=FOLDER, the surfaces before
+// and after are written there.
 
 #include <cstdio>
 #include <cstdlib>
@@ -25,6 +25,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr double kCell = 0.4;        ///< of the grid that surfaces are made on [mm]
 constexpr double kLost = 0.3;        ///< farther from the result, an end or a pole is lost [radii]
 constexpr double kMostVolume = 0.1;  ///< that a right result may lose or gain [-]
 
@@ -56,9 +57,9 @@ Json facts(const CrowdedContact& contact, const Surface& after) {
             {"wrong", lost > kLost || std::abs(volume_change) > kMostVolume}};
 }
 
-Json line_of(const std::string& name, const std::string& crowd, int number) {
-    const CrowdedContact contact = crowded_contact(
-        crowd_from(crowd), static_cast<std::uint64_t>(number), crowd == "thread" ? 0.25 : 0.4);
+Json line_of(const std::string& name, const std::string& crowd, int number, double cell) {
+    const CrowdedContact contact =
+        crowded_contact(crowd_from(crowd), static_cast<std::uint64_t>(number), cell);
     const std::string file = crowd + std::to_string(number);
     dump(contact.surface, file + "_before.ply");
     Json line = {{"crowd", crowd},
@@ -101,13 +102,15 @@ Json line_of(const std::string& name, const std::string& crowd, int number) {
 }  // namespace
 
 int main(int count, char** arguments) {
-    if (count != 5)
+    if (count != 5 && count != 6)
         return std::fputs(
-                   "bench_crowded separate|stamp|widen sac|furcation|third|thread FIRST LAST\n",
+                   "bench_crowded separate|stamp|widen sac|furcation|third|thread FIRST LAST "
+                   "[CELL]\n",
                    stderr),
                2;
+    const double cell = count == 6 ? std::atof(arguments[5]) : kCell;
     for (int number = std::atoi(arguments[3]); number <= std::atoi(arguments[4]); ++number) {
-        std::puts(line_of(arguments[1], arguments[2], number).dump().c_str());
+        std::puts(line_of(arguments[1], arguments[2], number, cell).dump().c_str());
         std::fflush(stdout);
     }
 }
