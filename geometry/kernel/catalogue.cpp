@@ -771,6 +771,13 @@ constexpr CatalogueText kTexts[] = {
     {"edit-crosses-walls",
      "walls pass through each other near {place}: {after#pair of triangles|pairs of triangles}, "
      "{before} before the edit[; give another {fix}][, or use {fix2}]"},
+    {"contact-elsewhere",
+     "the narrowest place that was found, at {place}, is {distance_mm:%.2g} mm from where the "
+     "contact was looked for: it may be a sac's neck or a vessel. Give another {fix}, or {fix2}"},
+    {"contact-cuts-vessel",
+     "the cut at {place} would go through a vessel: walls face it on {facing_percent:%.0f} % of "
+     "the "
+     "way around, as where nothing passes by. Give another {fix}, or {fix2}"},
     {"edit-folds-wall",
      "the wall is folded over along {edges#edge}, {share_percent:%.2g} % of those that moved, "
      "first near {place}: it would be rubble there[; give another {fix}][, or use {fix2}]"},

@@ -54,7 +54,9 @@ Json facts(const CrowdedContact& contact, const Surface& after) {
     return {{"parted", parted},
             {"volume_percent", 100.0 * volume_change},
             {"lost_radii", lost},
-            {"wrong", lost > kLost || std::abs(volume_change) > kMostVolume}};
+            {"cuts_vessel", cuts_vessel(contact, after)},
+            {"wrong",
+             cuts_vessel(contact, after) || lost > kLost || std::abs(volume_change) > kMostVolume}};
 }
 
 Json line_of(const std::string& name, const std::string& crowd, int number, double cell) {

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <random>
 #include <vector>
 
+#include "geometry/kernel/edges.h"
 #include "geometry/kernel/surface_distance.h"
 #include "tests/support/touching_vessels.h"
 
@@ -145,7 +147,9 @@ CrowdedContact crowded_contact(Crowd crowd, std::uint64_t number, double cell) {
     Draw draw(number);
     const Plan plan = plan_of(crowd, draw);
     CrowdedContact made{.place = plan.place, .kept = plan.poles, .thinnest = 1e9};
+    made.vessels.assign(plan.poles.size(), 0);
     Eigen::AlignedBox3d box;
+    int vessel = 0;  // the branches of the first are one
     for (const auto* tubes : {&plan.own, &plan.other})
         for (const Tube& tube : *tubes) {
             for (const Vec3& p : {tube.from, tube.to}) {
@@ -156,13 +160,26 @@ CrowdedContact crowded_contact(Crowd crowd, std::uint64_t number, double cell) {
             made.thinnest = std::min(made.thinnest, tube.radius);
             if ((tube.from - tube.to).norm() < tube.radius) continue;  // a sac
             // Vessels join at the origin.
+            if (tubes == &plan.other) ++vessel;
             if (tube.from != Vec3::Zero()) made.kept.push_back(tube.tip(true));
             if (tube.to != Vec3::Zero()) made.kept.push_back(tube.tip(false));
+            made.vessels.resize(made.kept.size(), vessel);
         }
     made.surface = solid_of(
         [&](const Vec3& p) { return smooth_minimum(least(plan.own, p), least(plan.other, p)); },
         box, cell);
     return made;
+}
+
+bool cuts_vessel(const CrowdedContact& contact, const Surface& after) {
+    const SurfaceDistance wall(after);
+    const Components parts = connected_components(*after.topology);
+    std::map<int, std::uint32_t> part_of;
+    for (std::size_t i = 0; i < contact.kept.size(); ++i) {
+        const auto part = parts.of_triangle[wall.closest_point(contact.kept[i]).triangle];
+        if (part_of.try_emplace(contact.vessels[i], part).first->second != part) return true;
+    }
+    return false;
 }
 
 double farthest_kept(const CrowdedContact& contact, const Surface& after) {

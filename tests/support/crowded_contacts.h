@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "tests/support/iso_surface.h"
 
@@ -19,12 +20,16 @@ struct CrowdedContact {
     Surface surface;
     Vec3 place = Vec3::Zero();  ///< in the middle of the contact [mm]
     Positions kept;             ///< poles of the sac and ends of all vessels [mm]
+    std::vector<int> vessels;   ///< to which each of them belongs
     double thinnest = 0.0;      ///< radius of the thinnest vessel [mm]
 };
 
 /// \param number of the phantom: sizes, angles and distances are drawn by it
 /// \param cell of the grid that the surface is made on [mm]
 [[nodiscard]] CrowdedContact crowded_contact(Crowd crowd, std::uint64_t number, double cell = 0.4);
+
+/// True if places of one vessel are on different parts of a surface.
+[[nodiscard]] bool cuts_vessel(const CrowdedContact& contact, const Surface& after);
 
 /// The farthest of what must be kept from a surface [mm].
 [[nodiscard]] double farthest_kept(const CrowdedContact& contact, const Surface& after);
