@@ -93,15 +93,44 @@ Positions corners_of(const Surface& surface, const std::vector<std::uint8_t>& fl
     return corners;
 }
 
+/// True if a triangle's box meets another one.
+bool meets(const Surface& surface, TriangleId t, const Bounds& box) {
+    const auto& [a, b, c] = surface.triangles()[t];
+    const Vec3 &p = surface.points()[a], &q = surface.points()[b], &r = surface.points()[c];
+    return (p.cwiseMin(q).cwiseMin(r).array() <= box.max.array()).all() &&
+           (p.cwiseMax(q).cwiseMax(r).array() >= box.min.array()).all();
+}
+
+/// The triangles within `reach` of some places, at least [mm]: a tree of them is made sooner than
+/// one of the whole surface.
+std::vector<Triangle> triangles_near(const Surface& surface, const Positions& places,
+                                     double reach) {
+    Bounds box = bounds(places);
+    box.min.array() -= reach;
+    box.max.array() += reach;
+    std::vector<Triangle> near;
+    for (TriangleId t = 0; t < surface.triangle_count(); ++t)
+        if (meets(surface, t, box)) near.push_back(surface.triangles()[t]);
+    return near;
+}
+
 Finding wall_beyond(const StatedChange& stated, const Surface& before, const Surface& after) {
     if (std::isinf(stated.wall_lost)) return std::nullopt;
     const Positions gone = corners_of(before, triangles_missing_in(after, before, stated.zones));
     if (gone.empty()) return std::nullopt;
-    const std::vector<SurfacePoint> nearest = distance_to(after).closest_points(gone);
-    const auto farthest = std::ranges::max_element(nearest, {}, &SurfacePoint::distance);
-    if (farthest->distance <= stated.wall_lost) return std::nullopt;
-    return error("edit-loses-wall", gone[static_cast<std::size_t>(farthest - nearest.begin())],
-                 {{"distance_mm", farthest->distance}, {"stated_mm", stated.wall_lost}});
+    const auto farthest_from = [&](const SurfaceDistance& wall) {
+        const std::vector<SurfacePoint> nearest = wall.closest_points(gone);
+        const auto farthest = std::ranges::max_element(nearest, {}, &SurfacePoint::distance);
+        return std::pair(farthest->distance,
+                         gone[static_cast<std::size_t>(farthest - nearest.begin())]);
+    };
+    const std::vector<Triangle> near = triangles_near(after, gone, stated.wall_lost);
+    if (!near.empty() &&
+        farthest_from(SurfaceDistance(after.points(), near)).first <= stated.wall_lost)
+        return std::nullopt;
+    const auto [distance, place] = farthest_from(distance_to(after));
+    return error("edit-loses-wall", place,
+                 {{"distance_mm", distance}, {"stated_mm", stated.wall_lost}});
 }
 
 /// Triangles of the surface whose boxes meet that of the flagged ones, with the flags.
@@ -116,11 +145,7 @@ Nearby near_flagged(const Surface& surface, const std::vector<std::uint8_t>& fla
     if (corners.empty()) return near;
     const Bounds box = bounds(corners);
     for (TriangleId t = 0; t < flagged.size(); ++t) {
-        const auto& [a, b, c] = surface.triangles()[t];
-        const Vec3 &p = surface.points()[a], &q = surface.points()[b], &r = surface.points()[c];
-        const bool meets = (p.cwiseMin(q).cwiseMin(r).array() <= box.max.array()).all() &&
-                           (p.cwiseMax(q).cwiseMax(r).array() >= box.min.array()).all();
-        if (!meets) continue;
+        if (!meets(surface, t, box)) continue;
         near.triangles.push_back(surface.triangles()[t]);
         near.flagged.push_back(flagged[t]);
     }
