@@ -777,6 +777,48 @@ constexpr CatalogueText kTexts[] = {
     {"read-in-another-unit",
      "the input was read in {was}, not in {wanted}: prepare it without a unit[{advice}][; another "
      "unit is a change of the edit that read it:\n{fix}, then --resume]"},
+    {"edit-leaves-zone",
+     "the surface changes near {place}, outside the zone that this edit states: that part of the "
+     "model was not to be touched[; give another {fix}][, or use {fix2}]"},
+    {"edit-changes-triangles",
+     "the edit states that it moves vertices alone, but {before#triangle} became {after}[; give "
+     "another {fix}][, or use {fix2}]"},
+    {"edit-changes-parts",
+     "the model gets {after#part} instead of {before}: more change than the edit states[; give "
+     "another {fix}][, or use {fix2}]"},
+    {"edit-changes-rims",
+     "the model gets {after#open end or hole|open ends and holes} instead of {before}: more change "
+     "than the edit states[; give another {fix}][, or use {fix2}]"},
+    {"edit-changes-handles",
+     "the model gets {after#handle} instead of {before}: more change than the edit states[; give "
+     "another {fix}][, or use {fix2}]"},
+    {"edit-changes-volume",
+     "the volume goes from {before_mm3:%.4g} to {after_mm3:%.4g} mm^3, which is more than the "
+     "{stated_mm3:%.3g} mm^3 that the edit states[; give another {fix}][, or use {fix2}]"},
+    {"edit-loses-wall",
+     "wall near {place} is lost, {distance_mm:%.2g} mm from what is left; the edit states "
+     "{stated_mm:%.2g} mm at most: a sac or a vessel's end would be gone with it[; give another "
+     "{fix}][, or use {fix2}]"},
+    {"edit-crosses-walls",
+     "walls pass through each other near {place}: {after#pair of triangles|pairs of triangles}, "
+     "{before} before the edit[; give another {fix}][, or use {fix2}]"},
+    {"contact-elsewhere",
+     "the narrowest place that was found, at {place}, is {distance_mm:%.2g} mm from where the "
+     "contact was looked for: it may be a sac's neck or a vessel. Give another {fix}, or {fix2}"},
+    {"contact-cuts-vessel",
+     "the cut at {place} would go through a vessel: walls face it on {facing_percent:%.0f} % of "
+     "the "
+     "way around, as where nothing passes by. Give another {fix}, or {fix2}"},
+    {"edit-folds-wall",
+     "the wall is folded over along {edges#edge}, {share_percent:%.2g} % of those that moved, "
+     "first near {place}: it would be rubble there[; give another {fix}][, or use {fix2}]"},
+    {"contact-too-wide",
+     "the contact at {place} is {width_mm:%.2g} mm wide, wider than the thinner vessel's diameter "
+     "of {diameter_mm:%.2g} mm: what touches there is no vessel that passes, or one of them "
+     "branches there, and a sac or a branch would be lost. Give another {fix}, or use {fix2}"},
+    {"contact-not-alone",
+     "the wall near {place} lies {height_mm:%.2g} mm from both vessels of the contact: a sac or "
+     "another vessel would be lost with it. Give another {fix}, or use {fix2}"},
     {"edit-no-longer-applies",
      "edit {number} {name} no longer applies after an earlier edit was changed: {why}; change its "
      "parameters, remove it, or\n{fix}, then --resume: it chooses again what it chose "

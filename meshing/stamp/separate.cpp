@@ -140,6 +140,32 @@ std::array<Vec3, 2> first_vessel(const Found& found) {
             found.zone.arms[found.twins.arms[0][1]].centre};
 }
 
+/// Where the wall that goes lies highest over both vessels: what branches off there, a sac or a
+/// branch that ends in the zone, goes with it.
+void measure_lost(const Found& found, const TwinWalls& walls, SeparateReport& report) {
+    const Surface& part = found.zone.part.surface;
+    std::vector<std::uint8_t> kept(part.vertex_count(), 0);
+    for (const VertexId v : walls.part.former)
+        if (v != kNewVertex) kept[v] = 1;
+    for (VertexId v = 0; v < kept.size(); ++v) {
+        if (kept[v]) continue;
+        const Vec3& place = part.points()[v];
+        const double height =
+            std::min(found.twins.tubes[0].height(place), found.twins.tubes[1].height(place));
+        if (height <= report.lost) continue;
+        report.lost = height;
+        report.lost_at = place;
+    }
+}
+
+/// Radius of the ball in which vertices may move: what hardly leaves the zone's ball belongs to it.
+double influence_of(const ContactZone& zone) {
+    double farthest = zone.reach;
+    for (const Vec3& p : zone.part.surface.points())
+        farthest = std::max(farthest, (p - zone.centre).norm());
+    return farthest;
+}
+
 void require_sound(const Surface& before, const Surface& after, const SeparateReport& report,
                    const Progress& progress) {
     const Connectivity was = connectivity(*before.topology), is = connectivity(*after.topology);
@@ -172,7 +198,7 @@ Separated separate(const Surface& surface, const SurfaceDistance& places,
                    const SeparateParameters& parameters, const Progress& progress) {
     const auto [found, walls] = parted_at(surface, places, parameters, progress.part(0.0, 0.8));
     SeparateReport report{.centre = found.zone.centre,
-                          .influence = found.zone.reach,
+                          .influence = influence_of(found.zone),
                           .width = found.bridge.width,
                           .length = found.bridge.length,
                           .gap = walls.gap,
@@ -180,6 +206,7 @@ Separated separate(const Surface& surface, const SurfaceDistance& places,
                           .radii = found.bridge.radii};
     report.waist = report.width / (2.0 * std::min(report.radii[0], report.radii[1]));
     report.vessel = first_vessel(found);
+    measure_lost(found, walls, report);
     report.replaced = static_cast<std::size_t>(std::ranges::count(found.zone.marked, 1));
     report.replacement = walls.part.surface.triangle_count();
     Separated result{sewn(surface, found.zone.marked, found.zone.part, walls.part), report};

@@ -23,9 +23,12 @@ struct SeparateReport {
     double influence = 0.0;            ///< radius of that ball [mm]
     double width = 0.0;                ///< of the contact, across the vessels [mm]
     double length = 0.0;               ///< of the contact, along the vessels [mm]
-    double waist = 0.0;                ///< its width, of the thinner vessel's diameter [-]
+    double waist = 0.0;                ///< its width, of the thinner vessel's diameter [-]; above 1
+                                       ///< it is no contact of two vessels alone
     double gap = 0.0;                  ///< between both walls [mm]
     double farthest = 0.0;             ///< of the new wall from the wall before [mm]
+    double lost = 0.0;                 ///< height over both vessels of wall that is gone, most [mm]
+    Vec3 lost_at = Vec3::Zero();       ///< where that was [mm]
     std::array<Vec3, 2> vessel;        ///< where one of the two leaves the ball [mm]
     std::array<double, 2> radii = {};  ///< of the vessels at the contact [mm]
     std::size_t replaced = 0;          ///< triangles before

@@ -3,14 +3,18 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "geometry/formats/surface_file.h"
 #include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/measure.h"
+#include "tests/support/crowded_contacts.h"
 #include "tests/support/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
 #include "tests/support/touching_vessels.h"
+#include "workbench/case/argument_texts.h"
 #include "workbench/operations/shared/handle_warnings.h"
 #include "workbench/operations/table.h"
+#include "workbench/session/guarded_run.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;
@@ -101,6 +105,53 @@ SCENARIO("The bundled case's image alone becomes two outlets of one vessel",
     std::vector<std::string> names;
     for (const auto& opening : opened["resolved"]["names"]) names.push_back(opening["name"]);
     CHECK(names == std::vector<std::string>{"inlet", "outlet_1", "outlet_2"});
+}
+
+SCENARIO("separate takes nothing but the bridge between two vessels", "[workbench][separate]") {
+    const Operation& operation = find_operation("separate");
+    const auto check = [&](Crowd crowd, std::uint64_t number) {
+        CAPTURE(static_cast<int>(crowd), number);
+        const CrowdedContact contact = crowded_contact(crowd, number);
+        Scene scene;
+        scene.surface = contact.surface;
+        try {
+            const Outcome outcome = separated(contact.surface, {{"at", contact.place}});
+            const auto excess = overreach_of(operation, scene, outcome, Progress());
+            if (excess) CHECK(excess->place.has_value());
+            if (excess) return std::string(excess->code);
+            CHECK(farthest_kept(contact, *outcome.scene.surface) < 0.3 * contact.thinnest);
+        } catch (const DiagnosedFailure& failure) {
+            return failure.diagnostics().front().code;
+        }
+        return std::string();
+    };
+    THEN("a sac that touches a vessel is not cut away") {
+        CHECK(check(Crowd::Sac, 1) == "contact-too-wide");
+        CHECK(check(Crowd::Sac, 2) == "contact-not-alone");
+        for (const std::uint64_t number : {3, 4}) CHECK_FALSE(check(Crowd::Sac, number).empty());
+    }
+    THEN("near a furcation, and beside a third vessel, two vessels are parted or it is refused") {
+        CHECK(check(Crowd::Furcation, 3).empty());
+        CHECK(check(Crowd::Furcation, 1) == "contact-not-parted");
+        CHECK(check(Crowd::Third, 3).empty());
+        CHECK(check(Crowd::Third, 1) == "contact-without-arms");
+    }
+}
+
+SCENARIO("The session refuses a separation that would take a sac", "[workbench][separate]") {
+    const std::string folder = temporary_folder(), project = folder + "/p.vbench";
+    const CrowdedContact contact = crowded_contact(Crowd::Sac, 3);
+    write_surface(contact.surface, folder + "/sac.ply");
+    const auto run = [&](const std::vector<std::string>& words) {
+        return run_program(program_path(), words);
+    };
+    REQUIRE(run({"new", project, folder + "/sac.ply", "--units", "mm"}).exit_code == 0);
+    const ProgramRun refused =
+        run({"apply", project, "separate", "at=" + to_text(Value(contact.place))});
+    CHECK(refused.exit_code == 1);
+    CHECK_THAT(refused.err, Contains("wider than the thinner vessel") && Contains("sac"));
+    const auto log = nlohmann::json::parse(run({"log", project, "--json"}).out);
+    CHECK(log.dump().find("separate") == std::string::npos);
 }
 
 SCENARIO("separate without a contact says so", "[workbench][separate]") {

@@ -5,9 +5,11 @@
 
 #include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/measure.h"
+#include "tests/support/crowded_contacts.h"
 #include "tests/support/shapes.h"
 #include "tests/support/touching_vessels.h"
 #include "workbench/operations/table.h"
+#include "workbench/session/guarded_run.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;
@@ -86,4 +88,28 @@ SCENARIO("A brush smaller than the triangles offers to refine them", "[workbench
         *done("remesh", tube, {{"at", Vec3(4, 0, 15)}, {"within", 1.5}}).scene.surface;
     for (const Diagnostic& other : done("brush-inflate", fine, dab).warnings)
         CHECK(other.code != "brush-coarse");
+}
+
+SCENARIO("A slab at a contact goes between two vessels, not through one", "[workbench][stamp]") {
+    const Operation& operation = find_operation("stamp");
+    const auto refusal = [&](Crowd crowd, std::uint64_t number) {
+        const CrowdedContact contact = crowded_contact(crowd, number);
+        Scene scene;
+        scene.surface = contact.surface;
+        Progress progress;
+        const Outcome outcome = run_here(
+            operation, scene, checked_arguments(operation, {{"at", contact.place}}), progress);
+        const auto excess = overreach_of(operation, scene, outcome, progress);
+        if (!excess) CHECK_FALSE(cuts_vessel(contact, *outcome.scene.surface));
+        if (excess) CHECK(excess->place.has_value());
+        return excess ? excess->code : "";
+    };
+    THEN("a sac that touches a vessel is freed, and keeps its neck") {
+        CHECK(refusal(Crowd::Sac, 6) == "");
+        CHECK(refusal(Crowd::Sac, 1) == "contact-cuts-vessel");
+    }
+    THEN("a vessel that is narrow between others is not cut") {
+        CHECK(refusal(Crowd::Third, 5) == "contact-cuts-vessel");
+        CHECK(refusal(Crowd::Furcation, 3) == "contact-elsewhere");
+    }
 }

@@ -4,10 +4,12 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/self_intersections.h"
+#include "tests/support/crowded_contacts.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_facts.h"
 #include "workbench/case/operation.h"
 #include "workbench/operations/table.h"
+#include "workbench/session/guarded_run.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;
@@ -76,4 +78,25 @@ SCENARIO("widen does not push a thread through a wall beside it", "[workbench][w
     CHECK(outcome.warnings.at(0).code == "widening-crosses-walls");
     CHECK(outcome.warnings.at(2).code == "still-narrow");
     CHECK(outcome.warnings.at(2).figures.at("places") == 1.0);
+}
+
+SCENARIO("widen is refused where it would fold the walls beside a thread", "[workbench][widen]") {
+    const Operation& operation = find_operation("widen");
+    const auto excess = [&](const Scene& scene, const Outcome& outcome) {
+        return overreach_of(operation, scene, outcome, Progress());
+    };
+    GIVEN("a thread in a vessel") {
+        const Scene scene = scene_of(tube_with_thread());
+        for (const double width : {0.4, 0.8, 1.2})
+            CHECK_FALSE(excess(scene, widened(scene, {{"width", width}})));
+    }
+    GIVEN("a thread between two healthy vessels") {
+        for (const std::uint64_t number : {1, 5}) {
+            const Scene scene = scene_of(crowded_contact(Crowd::Thread, number, 0.25).surface);
+            const auto found = excess(scene, widened(scene, {{"width", 1.0}}));
+            REQUIRE(found);
+            CHECK(found->code == "edit-folds-wall");
+            CHECK(found->place.has_value());
+        }
+    }
 }

@@ -41,6 +41,8 @@ using StepperFunction = std::unique_ptr<Stepper> (*)(const Scene& scene,
                                                      const CheckedArguments& arguments,
                                                      Progress& progress);
 
+struct StatedChange;
+
 /// One row of the operation table.
 struct Operation {
     std::string name;  ///< the command-line name, "clip-opening"
@@ -63,6 +65,10 @@ struct Operation {
     /// are left out; not of all. For any thread. Throws what the operation throws. Null: nothing.
     Arguments (*decided)(const Scene& scene, const CheckedArguments& arguments,
                          const Progress& progress) = nullptr;
+    /// What it states that the run which made an outcome may change of the surface
+    /// (stated_change.h); the session refuses an outcome that changes more. Null: it may change
+    /// everything.
+    StatedChange (*may_change)(const Scene& before, const Outcome& outcome) = nullptr;
     std::string thesis = {};  ///< section numbers, "4.2.7"; may be empty
     RecipePart recipe = {};
     OperationSearch search = {};

@@ -11,6 +11,7 @@
 #include "geometry/kernel/wording.h"
 #include "meshing/remeshing/local_remesh.h"
 #include "workbench/case/argument_texts.h"
+#include "workbench/case/stated_change.h"
 #include "workbench/operations/brush/dabs.h"
 #include "workbench/operations/shared/crossing_warning.h"
 #include "workbench/operations/table.h"
@@ -240,6 +241,16 @@ std::unique_ptr<Stepper> live_weight(const Scene& scene, const CheckedArguments&
 }
 
 /// Common part of all brushes.
+/// Each dab reaches along the wall from a place within one local radius of its anchor.
+StatedChange brushed(const Scene&, const Outcome& outcome) {
+    StatedChange stated{.keeps_triangles = true};
+    stated.zones.emplace();
+    for (const Arguments& dab : outcome.resolved.records("dabs").list())
+        stated.zones->push_back(
+            {dab.point("point"), dab.real("radius") + dab.real("vessel_radius")});
+    return stated;
+}
+
 Operation brush(const std::string& name, double weakest, const std::string& summary,
                 const std::string& strength) {
     return {.name = name,
@@ -248,6 +259,7 @@ Operation brush(const std::string& name, double weakest, const std::string& summ
                         Step::Smoothing, Step::Deformation, Step::Remeshing},
             .summary = summary,
             .parameters = dab_parameters(weakest, strength),
+            .may_change = &brushed,
             .thesis = "4.2.3-4.2.4",
             .example = {.placed = {"at"},
                         .given = {{"radius", 0.5}, {"strength", 0.5}},

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/unsmoothed.h"
+#include "workbench/case/stated_change.h"
 #include "workbench/operations/clip_opening/clipping.h"
 #include "workbench/operations/clip_opening/clipping_record.h"
 #include "workbench/operations/clip_opening/clipping_warnings.h"
@@ -88,6 +89,11 @@ private:
     Outcome made_;
 };
 
+/// Ends are cut off, and loops of vessels perhaps, but no vessel.
+StatedChange cut_ends(const Scene&, const Outcome&) {
+    return {.parts = kAnyGain, .handles = kAnyLoss, .rims = kAnyGrowth};
+}
+
 }  // namespace
 
 Operation clip_opening_operation() {
@@ -98,6 +104,7 @@ Operation clip_opening_operation() {
         .summary = "open vessel ends: cap flat rims, cut the others perpendicular to the vessel",
         .parameters = clip_opening_parameters(),
         .start = &started<LiveClipping>,
+        .may_change = &cut_ends,
         .thesis = "4.2.7",
         .recipe = {.cuts_ends = true},
         .example = {

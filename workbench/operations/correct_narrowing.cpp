@@ -9,6 +9,7 @@
 #include "geometry/vessel/narrowing/image_evidence.h"
 #include "geometry/vessel/narrowing/named_narrowing.h"
 #include "workbench/case/point_json.h"
+#include "workbench/case/stated_change.h"
 #include "workbench/operations/shared/narrowing_evidence.h"
 #include "workbench/operations/table.h"
 
@@ -94,6 +95,17 @@ Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) 
     return outcome;
 }
 
+constexpr double kAround = 4.0;  ///< wall of a section lies this near its axis [radii]
+
+StatedChange widened_stretch(const Scene&, const Outcome& outcome) {
+    const Json& figures = *outcome.report;
+    const double radius = std::max(figures.at("radius_mm").get<double>(),
+                                   figures.at("expected_radius_mm").get<double>());
+    const ChangeZone zone{point_from(figures.at("place_mm")),
+                          figures.at("length_moved_mm").get<double>() + kAround * radius};
+    return {.zones = {{zone}}, .keeps_triangles = true, .keeps_walls_apart = true};
+}
+
 }  // namespace
 
 Operation correct_narrowing_operation() {
@@ -144,6 +156,7 @@ Operation correct_narrowing_operation() {
               .use = Use::Rare}},
         .run = &run,
         .decided = &decided,
+        .may_change = &widened_stretch,
         .thesis = "4.2.4",
         .example = {
             .placed = {"from", "to"}, .given = {{"radius", 1.1}}, .changed = {{"strength", 0.5}}}};

@@ -15,6 +15,7 @@
 #include "workbench/case/measure_json.h"
 #include "workbench/operations/shared/context_weights.h"
 #include "workbench/operations/shared/replacing_stepper.h"
+#include "workbench/operations/shared/stated_changes.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {
@@ -292,6 +293,7 @@ Operation decimate_operation() {
             .parameters = parameter_table(),
             .start = &started<LiveDecimation>,
             .decided = &decided_decimation,
+            .may_change = &kept_vessels,
             .thesis = "5.6, 7.2",
             .search = {.parameters = &searched_parameters,
                        .rivals = {"triangles"},

@@ -5,6 +5,7 @@
 #include "geometry/kernel/diagnosed_error.h"
 #include "geometry/vessel/centerlines/centerlines.h"
 #include "workbench/case/point_json.h"
+#include "workbench/operations/shared/stated_changes.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {
@@ -88,6 +89,7 @@ Operation deform_branch_operation() {
             .summary = "move a place of a branch, or straighten it; sections and length stay",
             .parameters = deform_parameters(),
             .run = &deform,
+            .may_change = &moved_vertices,
             .thesis = "4.2.10",
             .example = {.given = {{"straighten", 0.5}}, .changed = {{"straighten", 0.75}}}};
 }

@@ -10,6 +10,7 @@
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/openings/extrude.h"
 #include "geometry/vessel/openings/opening_axis.h"
+#include "workbench/case/stated_change.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {
@@ -175,6 +176,10 @@ Parameter lengths_parameter() {
             .use = Use::Decision};
 }
 
+StatedChange longer_vessels(const Scene&, const Outcome&) {
+    return {.rims = kAnyGrowth};
+}
+
 }  // namespace
 
 Operation extrude_opening_operation() {
@@ -230,6 +235,7 @@ Operation extrude_opening_operation() {
                   .use = Use::Rare},
                  lengths_parameter()},
             .run = &extrude,
+            .may_change = &longer_vessels,
             .thesis = "4.2.8",
             .example = {.scene = ExampleScene::Openings, .changed = {{"diameters", 1.0}}}};
 }

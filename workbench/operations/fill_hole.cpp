@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <limits>
 
 #include <nlohmann/json.hpp>
@@ -5,6 +6,7 @@
 #include "geometry/editing/hole_filling.h"
 #include "geometry/kernel/errors.h"
 #include "workbench/case/point_json.h"
+#include "workbench/case/stated_change.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {
@@ -57,6 +59,27 @@ Outcome fill(const Scene& scene, const Arguments& arguments, Progress& progress)
     return outcome;
 }
 
+constexpr double kDome = 3.0;  ///< new wall lies this near a hole's middle [radii of the hole]
+
+/// Holes are closed, and the wall around them stays as it is.
+StatedChange closed_holes(const Scene& before, const Outcome& outcome) {
+    const Surface& surface = surface_of(before);
+    StatedChange stated{.keeps_walls_apart = true};
+    stated.zones.emplace();
+    const auto near = outcome.resolved.optional_point("near");
+    for (auto loops = surface.topology->boundary_loops(); const auto& loop : loops) {
+        if (near && loop != nearest_loop(surface, near)) continue;
+        const Vec3 centre = loop_centre(surface, loop);
+        double radius = 0.0;
+        for (const VertexId v : loop)
+            radius = std::max(radius, (surface.points()[v] - centre).norm());
+        stated.zones->push_back({centre, kDome * radius});
+    }
+    const auto holes = static_cast<int>(stated.zones->size());
+    stated.rims = {-holes, -holes};
+    return stated;
+}
+
 }  // namespace
 
 Operation fill_hole_operation() {
@@ -83,6 +106,7 @@ Operation fill_hole_operation() {
               .minimum = 0,
               .maximum = 2}},
         .run = &fill,
+        .may_change = &closed_holes,
         .thesis = "4.2.6",
         .example = {.scene = ExampleScene::Holes, .changed = {{"continuity", std::int64_t{0}}}}};
 }

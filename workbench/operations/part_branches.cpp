@@ -4,6 +4,7 @@
 
 #include "geometry/vessel/centerlines/centerlines.h"
 #include "workbench/case/point_json.h"
+#include "workbench/operations/shared/stated_changes.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {
@@ -69,6 +70,7 @@ Operation part_branches_operation() {
                         .minimum = 0.0,
                         .above_minimum = true}},
         .run = &part,
+        .may_change = &moved_vertices,
         .thesis = "4.2.10",
         .example = {
             .scene = ExampleScene::Branches, .given = {{"gap", 0.05}}, .changed = {{"gap", 0.07}}}};

@@ -20,6 +20,7 @@
 #include "meshing/remeshing/sizing_field.h"
 #include "workbench/case/measure_json.h"
 #include "workbench/operations/shared/near_place.h"
+#include "workbench/operations/shared/stated_changes.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {
@@ -332,6 +333,7 @@ Operation remesh_operation() {
         .parameters = remesh_parameters(),
         .run = &run,
         .decided = &decided_remeshing,
+        .may_change = &kept_vessels,
         .thesis = "3.3.2, 4.2.5, 4.2.8-4.2.9",
         .search = {.parameters = &searched_parameters,
                    .rivals = {"min_edge", "max_edge"},

@@ -1,11 +1,14 @@
 #include "geometry/vessel/openings/remove_branch.h"
 
+#include <cmath>
 #include <memory>
 
 #include <nlohmann/json.hpp>
 
+#include "geometry/kernel/measure.h"
 #include "geometry/vessel/openings/branch_part.h"
 #include "workbench/case/point_json.h"
+#include "workbench/case/stated_change.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {
@@ -32,6 +35,16 @@ Outcome remove(const Scene& scene, const Arguments& arguments, Progress& progres
                                                     {"follows_parent", removal.follows_parent}});
     outcome.scene = with_surface(scene, removal.surface);
     return outcome;
+}
+
+constexpr double kBulge = 0.05;  ///< of the volume, that the new wall may add [-]
+
+/// The branch goes with its loops and open ends, and nothing is added but its parent's wall.
+StatedChange removed_branch(const Scene& before, const Outcome&) {
+    return {.handles = kAnyLoss,
+            .rims = kAnyLoss,
+            .volume_gained = kBulge * std::abs(volume(surface_of(before))),
+            .keeps_walls_apart = true};
 }
 
 }  // namespace
@@ -66,6 +79,7 @@ Operation remove_branch_operation() {
                         .minimum = 1,
                         .maximum = 2}},
         .run = &remove,
+        .may_change = &removed_branch,
         .thesis = "4.2.2",
         .example = {.scene = ExampleScene::Branches, .changed = {{"margin", 0.5}}}};
 }

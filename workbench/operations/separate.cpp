@@ -12,6 +12,7 @@
 #include "geometry/kernel/handles.h"
 #include "geometry/kernel/measure.h"
 #include "workbench/case/point_json.h"
+#include "workbench/case/stated_change.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {
@@ -71,6 +72,8 @@ Json report_json(const SeparateReport& figures) {
             {"waist", figures.waist},
             {"gap_mm", figures.gap},
             {"largest_mm", figures.farthest},
+            {"lost_height_mm", figures.lost},
+            {"lost_height_at_mm", point_json(figures.lost_at)},
             {"influence_mm", figures.influence},
             {"radius_a_mm", figures.radii[0]},
             {"radius_b_mm", figures.radii[1]},
@@ -103,6 +106,49 @@ Arguments decided(const Scene& scene, const CheckedArguments& arguments, const P
         set_vessel(found,
                    vessel_through(surface, distance_to(surface), parameters_from(found), progress));
     return found;
+}
+
+/// A contact of two vessels is no wider than the thinner one.
+constexpr double kWidest = 1.05;  ///< waist [-]
+/// The fillets of a contact that wide lie 0.4 radii over its vessels.
+constexpr double kHighest = 0.6;  ///< height of what is lost [radii of the thinner vessel]
+constexpr double kLost = 1.0;     ///< distance of what is lost from the new walls [the same]
+
+std::vector<Remedy> another_place() {
+    return {{.arguments = {{"at", ""}}}, {.operation = "stamp"}};
+}
+
+std::optional<Diagnostic> doubt_about(const Json& figures) {
+    const double width = figures.at("contact_width_mm").get<double>(),
+                 waist = figures.at("waist").get<double>(),
+                 height = figures.at("lost_height_mm").get<double>();
+    if (waist > kWidest)
+        return Diagnostic{.code = "contact-too-wide",
+                          .place = point_from(figures.at("contact_mm")),
+                          .figures = {{"width_mm", width}, {"diameter_mm", width / waist}},
+                          .remedies = another_place()};
+    if (height > 0.5 * kHighest * width / waist)
+        return Diagnostic{.code = "contact-not-alone",
+                          .place = point_from(figures.at("lost_height_at_mm")),
+                          .figures = {{"height_mm", height}},
+                          .remedies = another_place()};
+    return std::nullopt;
+}
+
+/// Two vessels become apart, or a loop is opened, in a ball; neither loses what branches off.
+StatedChange parted_vessels(const Scene&, const Outcome& outcome) {
+    const Json& figures = *outcome.report;
+    const double thinner =
+        std::min(figures.at("radius_a_mm").get<double>(), figures.at("radius_b_mm").get<double>());
+    const ChangeZone zone{point_from(figures.at("contact_mm")),
+                          figures.at("influence_mm").get<double>() * (1.0 + 1e-9)};
+    return {.zones = {{zone}},
+            .parts = {0, 1},
+            .handles = {-1, 0},
+            .wall_lost = kLost * thinner + figures.at("gap_mm").get<double>(),
+            .keeps_walls_apart = true,
+            .remedies = another_place(),
+            .doubt = doubt_about(figures)};
 }
 
 }  // namespace
@@ -144,6 +190,7 @@ Operation separate_operation() {
               .use = Use::Rare}},
         .run = &run,
         .decided = &decided,
+        .may_change = &parted_vessels,
         .thesis = "4.2.5",
         .example = {.scene = ExampleScene::Contact, .placed = {"at"}, .changed = {{"gap", 0.25}}}};
 }

@@ -11,6 +11,7 @@
 #include "workbench/operations/shared/context_weights.h"
 #include "workbench/operations/shared/crossing_warning.h"
 #include "workbench/operations/shared/replacing_stepper.h"
+#include "workbench/operations/shared/stated_changes.h"
 #include "workbench/operations/smooth/change_meter.h"
 #include "workbench/operations/smooth/context.h"
 #include "workbench/operations/smooth/context_filter.h"
@@ -225,6 +226,7 @@ Operation smooth_operation() {
             .stays_here = &asks_for_gpu,
             .suggested = &suggested_arguments,
             .decided = &decided_smoothing,
+            .may_change = &moved_vertices,
             .thesis = "3.3.4, 5",
             .recipe = {.volume_remedies = {{.arguments = {{"iterations", ""}}},
                                            {.arguments = {{"filter", "taubin"}}}}},

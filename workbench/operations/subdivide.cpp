@@ -5,6 +5,7 @@
 #include "geometry/kernel/measure.h"
 #include "meshing/remeshing/local_subdivide.h"
 #include "workbench/operations/shared/near_place.h"
+#include "workbench/operations/shared/stated_changes.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {
@@ -61,6 +62,7 @@ Operation subdivide_operation() {
             .summary = "split every triangle into four and smooth (Loop); caps stay flat",
             .parameters = subdivide_parameters(),
             .run = &run,
+            .may_change = &kept_vessels,
             .thesis = "3.3.1, 4.2.5",
             .search = {.parameters = &searched_parameters},
             .example = {.changed = {{"iterations", std::int64_t{2}}}}};

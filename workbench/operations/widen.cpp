@@ -5,6 +5,7 @@
 #include "geometry/kernel/diagnosed_error.h"
 #include "smoothing/filters/new_crossings.h"
 #include "workbench/case/point_json.h"
+#include "workbench/case/stated_change.h"
 #include "workbench/operations/shared/crossing_warning.h"
 #include "workbench/operations/table.h"
 
@@ -78,6 +79,14 @@ Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) 
     return outcome;
 }
 
+constexpr double kFolded = 0.005;  ///< where a thread alone is widened, nothing is folded [-]
+
+StatedChange widened_lumen(const Scene&, const Outcome&) {
+    return {.keeps_triangles = true,
+            .folded = kFolded,
+            .remedies = {{.arguments = {{"width", ""}}}, {.operation = "brush-inflate"}}};
+}
+
 }  // namespace
 
 Operation widen_operation() {
@@ -97,6 +106,7 @@ Operation widen_operation() {
                             .above_minimum = true}},
             .run = &run,
             .decided = &decided_width,
+            .may_change = &widened_lumen,
             .thesis = "4.2.4",
             .example = {.given = {{"width", 2.25}}, .changed = {{"width", 2.375}}}};
 }

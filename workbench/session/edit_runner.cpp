@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -11,10 +12,12 @@
 #include "geometry/kernel/diagnostic_text.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/stopwatch.h"
+#include "geometry/kernel/surface_key.h"
 #include "geometry/kernel/wording.h"
 #include "workbench/case/former_arguments.h"
 #include "workbench/project/source_files.h"
 #include "workbench/project/stored_text.h"
+#include "workbench/session/guarded_run.h"
 #include "workbench/session/surface_change.h"
 
 namespace vesselbench {
@@ -130,15 +133,28 @@ void keep_findings(ResultRecord& record, const ResultRecord& chosen) {
     record.report = stored_text(report);
 }
 
+/// True for scenes whose surfaces have the same bits.
+bool same_surfaces(const Scene& a, const Scene& b) {
+    const auto empty = [](const Scene& scene) { return !scene.surface || scene.surface->empty(); };
+    if (empty(a) || empty(b)) return empty(a) && empty(b);
+    return shape_key(*a.surface) == shape_key(*b.surface);
+}
+
+EditRun run_guarded(const Operation& operation, Scene input, const CheckedArguments& located,
+                    const WorkerOptions& worker, const Progress& progress,
+                    const std::function<bool()>& repeats = {}) {
+    const Stopwatch watch;
+    Progress own = progress.part(0.0, kRunShare);
+    Outcome outcome = run_operation(operation, input, located, own, worker);
+    return guarded_run(operation, std::move(input), std::move(outcome), watch.seconds(),
+                       progress.part(kRunShare, 1.0), repeats);
+}
+
 }  // namespace
 
 EditRun EditRunner::run(const Operation& operation, Scene input, const CheckedArguments& located,
                         const Progress& progress) const {
-    const Stopwatch watch;
-    Progress own = progress.part(0.0, kRunShare);
-    Outcome outcome = run_operation(operation, input, located, own, options_->worker);
-    return edit_run(operation, std::move(input), std::move(outcome), watch.seconds(),
-                    progress.part(kRunShare, 1.0));
+    return run_guarded(operation, std::move(input), located, options_->worker, progress);
 }
 
 CheckedArguments EditRunner::located(const Operation& operation, EditRef edit,
@@ -156,7 +172,12 @@ EditRun EditRunner::run_pending(EditRef ref, Scene input, const Progress& progre
     try {
         const Operation& operation = options_->find(edit.operation);
         const Arguments arguments = arguments_again(operation, edit.given, record.get());
-        EditRun done = run(operation, input, located(operation, ref, arguments), progress);
+        const auto repeats = [&] {
+            return record && record->stale_reason.empty() &&
+                   same_surfaces(load(record->input, progress.silent()), input);
+        };
+        EditRun done = run_guarded(operation, input, located(operation, ref, arguments),
+                                   options_->worker, progress, repeats);
         if (!record) return done;
         const auto first = first_result(store_->history(), ref);
         if (first && chose_places(operation, edit.given, record->resolved))
@@ -278,6 +299,13 @@ Outcome EditRunner::rerun(const HistoryResult& result, const Progress& progress)
                 with_former_arguments(operation, store_->record(result.id)->resolved));
     Progress own = progress;
     return run_operation(operation, load(result.input, progress), arguments, own, options_->worker);
+}
+
+std::string EditRunner::excess(const HistoryResult& result, const Outcome& outcome,
+                               const Progress& progress) {
+    const Operation& operation = options_->find(store_->edit(result.edit).operation);
+    const auto found = overreach_of(operation, load(result.input, progress), outcome, progress);
+    return found ? text_of(*found) : "";
 }
 
 }  // namespace vesselbench

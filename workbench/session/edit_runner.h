@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "workbench/session/case_store.h"
@@ -16,7 +17,7 @@ public:
 
     /// Runs an operation on a scene.
     /// \param located arguments with the paths of the files it reads
-    /// \throw what the operation throws
+    /// \throw what the operation throws; DiagnosedFailure if it changes more than it states
     [[nodiscard]] EditRun run(const Operation& operation, Scene input,
                               const CheckedArguments& located, const Progress& progress) const;
 
@@ -34,6 +35,11 @@ public:
 
     /// Runs a stored edit again on its stored input, with its decisions.
     [[nodiscard]] Outcome rerun(const HistoryResult& result, const Progress& progress);
+
+    /// In what an outcome of rerun() changes more than its operation states, in words; empty: in
+    /// nothing.
+    [[nodiscard]] std::string excess(const HistoryResult& result, const Outcome& outcome,
+                                     const Progress& progress);
 
 private:
     EditRun run_pending(EditRef edit, Scene input, const Progress& progress);

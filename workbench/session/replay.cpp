@@ -48,6 +48,7 @@ ReplayEntry replay_one(CaseStore& store, EditRunner& runner, const HistoryEntry&
         const HistoryResult& result = store.history().results().at(entry.result);
         const Outcome outcome = runner.rerun(result, progress);
         replayed.replayed = true;
+        replayed.note = runner.excess(result, outcome, progress.silent());
         compare(*store.record(entry.result), outcome.scene, store, runner, replayed);
     } catch (const Cancelled&) {
         throw;

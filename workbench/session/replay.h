@@ -16,7 +16,8 @@ struct ReplayEntry {
     bool replayed = false;  ///< false: only the stored result's checksums were verified
     std::vector<std::string> differences;  ///< empty: same bits, or as `distance` says
     std::optional<double> distance;        ///< largest between vertices [mm], for results of a GPU
-    std::string note;                      ///< the reason if it was not run again
+    /// Why it was not run again; or in what it changes more than its operation states.
+    std::string note;
 };
 
 /// Runs each done edit of the current state again on its stored input, with its resolved arguments,

@@ -10,6 +10,7 @@
 #include "workbench/session/case_store.h"
 #include "workbench/session/edit_place.h"
 #include "workbench/session/edit_runner.h"
+#include "workbench/session/guarded_run.h"
 #include "workbench/session/known_results.h"
 #include "workbench/session/login_name.h"
 #include "workbench/session/moved_places.h"
@@ -282,8 +283,8 @@ Preview Session::preview(LiveEdit& live, Progress progress) {
     data.edit.given = without_folders(*live.operation_, live.given(outcome.resolved));
     data.before = live.before_;
     data.sources = parts_->sources(*live.operation_, live.arguments_, outcome.scene);
-    data.run = edit_run(*live.operation_, live.before_.scene, std::move(outcome), live.seconds_,
-                        progress.part(0.9, 1.0));
+    data.run = guarded_run(*live.operation_, live.before_.scene, std::move(outcome), live.seconds_,
+                           progress.part(0.9, 1.0));
     return Preview(std::move(data));
 }
 

@@ -1,0 +1,259 @@
+#include "workbench/session/overreach.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "geometry/kernel/derived_cache.h"
+#include "geometry/kernel/measure.h"
+#include "geometry/kernel/self_intersections.h"
+#include "geometry/kernel/surface_distance.h"
+#include "workbench/session/changed_wall.h"
+
+namespace vesselbench {
+
+namespace {
+
+using Finding = std::optional<Diagnostic>;
+
+Diagnostic error(const char* code, std::optional<Vec3> place,
+                 std::map<std::string, double> figures) {
+    return {.code = code,
+            .severity = Severity::Error,
+            .place = std::move(place),
+            .figures = std::move(figures)};
+}
+
+/// Of a topology; that after one edit is that before the next.
+Connectivity connectivity_of(const Topology& topology) {
+    return *derived_cache().find_or_make<Connectivity>(
+        "connectivity", topology.key(), [&] { return connectivity(topology); },
+        [](const Connectivity& made) { return sizeof made; });
+}
+
+bool same_triangles(const Surface& a, const Surface& b) {
+    return a.topology == b.topology || (a.vertex_count() == b.vertex_count() &&
+                                        std::ranges::equal(a.triangles(), b.triangles()));
+}
+
+Finding growth_beyond(const AllowedGrowth& allowed, const char* code, std::int64_t before,
+                      std::int64_t after) {
+    const std::int64_t growth = after - before;
+    if (growth >= allowed.least && growth <= allowed.most) return std::nullopt;
+    return error(code, {},
+                 {{"before", static_cast<double>(before)}, {"after", static_cast<double>(after)}});
+}
+
+Finding topology_beyond(const StatedChange& stated, const Surface& before, const Surface& after) {
+    if (same_triangles(before, after)) return std::nullopt;
+    if (stated.keeps_triangles)
+        return error("edit-changes-triangles", {},
+                     {{"before", static_cast<double>(before.triangle_count())},
+                      {"after", static_cast<double>(after.triangle_count())}});
+    const Connectivity was = connectivity_of(*before.topology),
+                       is = connectivity_of(*after.topology);
+    const auto number = [](std::size_t count) { return static_cast<std::int64_t>(count); };
+    if (auto found = growth_beyond(stated.parts, "edit-changes-parts", number(was.components),
+                                   number(is.components)))
+        return found;
+    if (auto found = growth_beyond(stated.rims, "edit-changes-rims", number(was.boundary_loops),
+                                   number(is.boundary_loops)))
+        return found;
+    if (!was.genus || !is.genus) return std::nullopt;  // of what is no manifold, none is known
+    return growth_beyond(stated.handles, "edit-changes-handles", *was.genus, *is.genus);
+}
+
+Finding zone_beyond(const StatedChange& stated, const Surface& before, const Surface& after) {
+    if (!stated.zones) return std::nullopt;
+    const auto place = change_outside(before, after, *stated.zones);
+    if (!place) return std::nullopt;
+    return error("edit-leaves-zone", place, {});
+}
+
+Finding volume_beyond(const StatedChange& stated, const Surface& before, const Surface& after) {
+    if (std::isinf(stated.volume_lost) && std::isinf(stated.volume_gained)) return std::nullopt;
+    const double was = volume(before), is = volume(after);
+    if (is - was <= stated.volume_gained && was - is <= stated.volume_lost) return std::nullopt;
+    return error("edit-changes-volume", {},
+                 {{"before_mm3", was},
+                  {"after_mm3", is},
+                  {"stated_mm3", is > was ? stated.volume_gained : stated.volume_lost}});
+}
+
+/// Vertices of the flagged triangles, each once.
+Positions corners_of(const Surface& surface, const std::vector<std::uint8_t>& flagged) {
+    std::vector<std::uint8_t> seen(surface.vertex_count(), 0);
+    Positions corners;
+    for (TriangleId t = 0; t < flagged.size(); ++t)
+        if (flagged[t])
+            for (const VertexId v : surface.triangles()[t])
+                if (!std::exchange(seen[v], 1)) corners.push_back(surface.points()[v]);
+    return corners;
+}
+
+/// True if a triangle's box meets another one.
+bool meets(const Surface& surface, TriangleId t, const Bounds& box) {
+    const auto& [a, b, c] = surface.triangles()[t];
+    const Vec3 &p = surface.points()[a], &q = surface.points()[b], &r = surface.points()[c];
+    return (p.cwiseMin(q).cwiseMin(r).array() <= box.max.array()).all() &&
+           (p.cwiseMax(q).cwiseMax(r).array() >= box.min.array()).all();
+}
+
+/// The triangles within `reach` of some places, at least [mm]: a tree of them is made sooner than
+/// one of the whole surface.
+std::vector<Triangle> triangles_near(const Surface& surface, const Positions& places,
+                                     double reach) {
+    Bounds box = bounds(places);
+    box.min.array() -= reach;
+    box.max.array() += reach;
+    std::vector<Triangle> near;
+    for (TriangleId t = 0; t < surface.triangle_count(); ++t)
+        if (meets(surface, t, box)) near.push_back(surface.triangles()[t]);
+    return near;
+}
+
+Finding wall_beyond(const StatedChange& stated, const Surface& before, const Surface& after) {
+    if (std::isinf(stated.wall_lost)) return std::nullopt;
+    const Positions gone = corners_of(before, triangles_missing_in(after, before, stated.zones));
+    if (gone.empty()) return std::nullopt;
+    const auto farthest_from = [&](const SurfaceDistance& wall) {
+        const std::vector<SurfacePoint> nearest = wall.closest_points(gone);
+        const auto farthest = std::ranges::max_element(nearest, {}, &SurfacePoint::distance);
+        return std::pair(farthest->distance,
+                         gone[static_cast<std::size_t>(farthest - nearest.begin())]);
+    };
+    const std::vector<Triangle> near = triangles_near(after, gone, stated.wall_lost);
+    if (!near.empty() &&
+        farthest_from(SurfaceDistance(after.points(), near)).first <= stated.wall_lost)
+        return std::nullopt;
+    const auto [distance, place] = farthest_from(distance_to(after));
+    return error("edit-loses-wall", place,
+                 {{"distance_mm", distance}, {"stated_mm", stated.wall_lost}});
+}
+
+/// Triangles of the surface whose boxes meet that of the flagged ones, with the flags.
+struct Nearby {
+    std::vector<Triangle> triangles;
+    std::vector<std::uint8_t> flagged;
+};
+
+Nearby near_flagged(const Surface& surface, const std::vector<std::uint8_t>& flagged) {
+    const Positions corners = corners_of(surface, flagged);
+    Nearby near;
+    if (corners.empty()) return near;
+    const Bounds box = bounds(corners);
+    for (TriangleId t = 0; t < flagged.size(); ++t) {
+        if (!meets(surface, t, box)) continue;
+        near.triangles.push_back(surface.triangles()[t]);
+        near.flagged.push_back(flagged[t]);
+    }
+    return near;
+}
+
+struct Crossings {
+    std::size_t pairs = 0;
+    Vec3 first = Vec3::Zero();  ///< [mm]
+};
+
+Crossings crossings_of(const Surface& surface, const std::vector<std::uint8_t>& flagged,
+                       const Progress& progress) {
+    const Nearby near = near_flagged(surface, flagged);
+    const auto pairs =
+        self_intersections_with(surface.points(), near.triangles, near.flagged, progress);
+    if (pairs.empty()) return {};
+    return {pairs.size(), surface.points()[near.triangles[pairs.front().first][0]]};
+}
+
+Finding crossings_beyond(const StatedChange& stated, const Surface& before, const Surface& after,
+                         const Progress& progress) {
+    if (!stated.keeps_walls_apart) return std::nullopt;
+    const Crossings now =
+        crossings_of(after, triangles_missing_in(before, after, stated.zones), progress);
+    if (now.pairs == 0) return std::nullopt;
+    const Crossings old =
+        crossings_of(before, triangles_missing_in(after, before, stated.zones), progress);
+    if (now.pairs <= old.pairs) return std::nullopt;
+    return error(
+        "edit-crosses-walls", now.first,
+        {{"before", static_cast<double>(old.pairs)}, {"after", static_cast<double>(now.pairs)}});
+}
+
+constexpr double kFold = 0.0;         ///< cosine between the triangles at a folded edge
+constexpr std::size_t kFewFolds = 5;  ///< a few are no rubble
+
+/// The triangle on the other side of the edge from a to b; none: it is no inner edge.
+std::optional<TriangleId> across(const Surface& surface, TriangleId t, VertexId a, VertexId b) {
+    for (const TriangleId other : surface.topology->triangles_at().row(a))
+        if (other != t && std::ranges::count(surface.triangles()[other], b) > 0) return other;
+    return std::nullopt;
+}
+
+bool is_folded(const Surface& surface, TriangleId s, TriangleId t) {
+    const Vec3 one = area_normal(surface.points(), surface.triangles()[s]),
+               other = area_normal(surface.points(), surface.triangles()[t]);
+    return one.dot(other) < kFold * one.norm() * other.norm();
+}
+
+Finding folds_beyond(const StatedChange& stated, const Surface& before, const Surface& after) {
+    if (stated.folded >= 1.0 || !same_triangles(before, after)) return std::nullopt;
+    std::size_t edges = 0, folded = 0;
+    Vec3 place = Vec3::Zero();
+    const auto moved = [&](VertexId v) { return before.points()[v] != after.points()[v]; };
+    for (TriangleId t = 0; t < after.triangle_count(); ++t) {
+        const Triangle& corners = after.triangles()[t];
+        if (std::ranges::none_of(corners, moved)) continue;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const VertexId a = corners[k], b = corners[(k + 1) % 3];
+            const auto other = across(after, t, a, b);
+            if (!other) continue;
+            ++edges;
+            if (!is_folded(after, t, *other) || is_folded(before, t, *other)) continue;
+            if (folded++ == 0) place = after.points()[a];
+        }
+    }
+    // Most edges are met from both sides.
+    if (folded <= 2 * kFewFolds ||
+        static_cast<double>(folded) <= stated.folded * static_cast<double>(edges))
+        return std::nullopt;
+    return error(
+        "edit-folds-wall", place,
+        {{"edges", static_cast<double>(folded / 2)},
+         {"share_percent", 100.0 * static_cast<double>(folded) / static_cast<double>(edges)}});
+}
+
+Finding beyond(const StatedChange& stated, const Surface& before, const Surface& after,
+               const Progress& progress) {
+    if (auto found = topology_beyond(stated, before, after)) return found;
+    progress.check_cancelled();
+    if (auto found = zone_beyond(stated, before, after)) return found;
+    if (auto found = volume_beyond(stated, before, after)) return found;
+    if (auto found = wall_beyond(stated, before, after)) return found;
+    if (auto found = folds_beyond(stated, before, after)) return found;
+    progress.check_cancelled();
+    return crossings_beyond(stated, before, after, progress);
+}
+
+bool has_surface(const Scene& scene) {
+    return scene.surface && !scene.surface->empty();
+}
+
+}  // namespace
+
+std::optional<Diagnostic> overreach(const StatedChange& stated, const Scene& before,
+                                    const Scene& after, const Progress& progress) {
+    if (stated.doubt) {
+        Diagnostic doubt = *stated.doubt;
+        doubt.severity = Severity::Error;
+        return doubt;
+    }
+    if (!has_surface(before) || !has_surface(after)) return std::nullopt;
+    const Surface &was = *before.surface, &is = *after.surface;
+    if (was.topology == is.topology && was.positions == is.positions) return std::nullopt;
+    Finding found = beyond(stated, was, is, progress);
+    if (found) found->remedies = stated.remedies;
+    return found;
+}
+
+}  // namespace vesselbench
