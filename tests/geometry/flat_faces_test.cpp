@@ -89,6 +89,14 @@ SCENARIO("A planar face that closes a vessel is found", "[geometry][flat_faces]"
                             capsule(p, {0.0, 0.0, -7.0}, {12.0, 0.0, -14.0}, 0.4 * kRadius));
         }));
     }
+    THEN("where the vessel turns behind it and rises beside it, as an arch does") {
+        check_end(faces_of([](const Vec3& p) {
+            const double trunk =
+                std::max(capsule(p, {0.0, 0.0, -9.0}, {0.0, 0.0, 10.0}, kRadius), p.z());
+            return std::min({trunk, capsule(p, {0.0, 0.0, -13.0}, {14.0, 0.0, -13.0}, kRadius),
+                             capsule(p, {14.0, 0.0, -13.0}, {14.0, 0.0, 18.0}, kRadius)});
+        }));
+    }
     THEN("where a thin branch close to it rises over it") {
         check_end(faces_of([](const Vec3& p) {
             return std::min(flat_end(p), capsule(p, {3.0, 0.0, -3.0}, {20.0, 0.0, 14.0}, 0.8));
@@ -100,6 +108,12 @@ SCENARIO("A planar face where no vessel ends is none", "[geometry][flat_faces]")
     THEN("a round end is none") {
         CHECK(faces_of([](const Vec3& p) {
                   return capsule(p, {0.0, 0.0, -30.0}, {0.0, 0.0, 0.0}, kRadius);
+              }).empty());
+    }
+    THEN("a flat place in the side of a vessel that passes is none") {
+        CHECK(faces_of([](const Vec3& p) {
+                  return std::max(capsule(p, {-20.0, 0.0, -6.0}, {20.0, 0.0, -6.0}, kRadius),
+                                  -std::hypot(p.x(), p.y()) > -3.0 ? p.z() + 3.0 : -1e3);
               }).empty());
     }
     THEN("the wall between the daughters of a furcation is none") {
