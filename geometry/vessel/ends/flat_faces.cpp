@@ -38,11 +38,11 @@ constexpr double kFarthest = 8.0;
 constexpr double kLeastLength = 1.0;
 
 /// Around a face that closes a vessel the wall falls off as deep as the vessel is measured, and
-/// leans outward by less than 45 degrees on the way, in so many of the sectors: in the others a
-/// branch leaves, or the vessel turns. Around a flat place of a dome it falls off nowhere, and
-/// beside one in the side of a vessel not along it [-].
+/// leans outward by less than 45 degrees on the way, in so many of the sectors in which there are
+/// triangles to tell: in the others a branch leaves, or the vessel turns. Around a flat place of a
+/// dome it falls off nowhere, and beside one in the side of a vessel not along it [-].
 constexpr std::size_t kSectors = 24;
-constexpr double kFalling = 0.75;
+constexpr double kFalling = 0.8;
 /// It does not rise over the face, as daughters beside the wall of a furcation do [radii of the
 /// face], but in a branch narrower than this [radii of the vessel].
 constexpr double kRise = 0.5;
@@ -304,6 +304,7 @@ private:
     [[nodiscard]] std::array<double, kSectors> reaches(const FlatFace& face, const Around& around,
                                                        double radius) const {
         std::array<double, kSectors> reach{};
+        reach.fill((1.0 + kBehind) * radius);
         for (const TriangleId t : face.triangles)
             for (const VertexId v : surface_.triangles()[t]) {
                 const Vec3& p = surface_.points()[v];
@@ -318,14 +319,17 @@ private:
         const auto [u, v] = plane_axes(face.normal);
         const Around around{face.centre, face.normal, u, v};
         const std::array<double, kSectors> reach = reaches(face, around, radius);
-        std::array<bool, kSectors> falls{};
+        std::array<bool, kSectors> falls{}, leaves{};
         std::vector<TriangleId> part = face.triangles;
         in_.assign(part);
         for (std::size_t i = 0; i < part.size(); ++i) {
             const Vec3 at = middle(part[i]);
             const std::size_t sector = around.sector(at);
-            if (around.side(at) > reach[sector]) continue;
-            if (around.height(at) < -kBehind * radius) {
+            if (around.side(at) > reach[sector]) {
+                leaves[sector] = leaves[sector] || around.height(at) > -kBehind * radius;
+                continue;
+            }
+            if (around.height(at) <= -kBehind * radius) {
                 falls[sector] = true;
                 continue;
             }
@@ -336,7 +340,12 @@ private:
             for (const TriangleId next : neighbours_[part[i]])
                 if (next != kNoTriangle && in_.insert(next)) part.push_back(next);
         }
-        return static_cast<double>(std::ranges::count(falls, true)) >= kFalling * kSectors;
+        double fallen = 0.0, known = 0.0;
+        for (std::size_t k = 0; k < kSectors; ++k) {
+            fallen += falls[k] ? 1.0 : 0.0;
+            known += falls[k] || leaves[k] ? 1.0 : 0.0;
+        }
+        return fallen > 0.0 && fallen >= kFalling * known;
     }
 
     /// Width of the vessel behind a triangle [mm].
