@@ -83,6 +83,11 @@ SCENARIO("A planar face that closes a vessel is found", "[geometry][flat_faces]"
         for (int i = 1; i <= 60; ++i) profile.emplace_back(kRadius, 0.0, -kRound - 0.5 * i);
         check_end(find_flat_faces(turned(profile, 120)));
     }
+    THEN("where few triangles lie around it") {
+        std::vector<Vec3> profile = {{1.4, 0.0, 0.0}, {2.7, 0.0, 0.0}};
+        for (int i = 0; i <= 20; ++i) profile.emplace_back(kRadius, 0.0, -1.5 * i);
+        check_end(find_flat_faces(turned(profile, 16)));
+    }
     THEN("where a branch leaves sideways close to it") {
         check_end(faces_of([](const Vec3& p) {
             return std::min(flat_end(p),
