@@ -83,10 +83,23 @@ SCENARIO("A planar face that closes a vessel is found", "[geometry][flat_faces]"
         for (int i = 1; i <= 60; ++i) profile.emplace_back(kRadius, 0.0, -kRound - 0.5 * i);
         check_end(find_flat_faces(turned(profile, 120)));
     }
+    THEN("where few triangles lie around it") {
+        std::vector<Vec3> profile = {{1.4, 0.0, 0.0}, {2.7, 0.0, 0.0}};
+        for (int i = 0; i <= 20; ++i) profile.emplace_back(kRadius, 0.0, -1.5 * i);
+        check_end(find_flat_faces(turned(profile, 16)));
+    }
     THEN("where a branch leaves sideways close to it") {
         check_end(faces_of([](const Vec3& p) {
             return std::min(flat_end(p),
                             capsule(p, {0.0, 0.0, -7.0}, {12.0, 0.0, -14.0}, 0.4 * kRadius));
+        }));
+    }
+    THEN("where the vessel turns behind it and rises beside it, as an arch does") {
+        check_end(faces_of([](const Vec3& p) {
+            const double trunk =
+                std::max(capsule(p, {0.0, 0.0, -9.0}, {0.0, 0.0, 10.0}, kRadius), p.z());
+            return std::min({trunk, capsule(p, {0.0, 0.0, -13.0}, {14.0, 0.0, -13.0}, kRadius),
+                             capsule(p, {14.0, 0.0, -13.0}, {14.0, 0.0, 18.0}, kRadius)});
         }));
     }
     THEN("where a thin branch close to it rises over it") {
@@ -100,6 +113,12 @@ SCENARIO("A planar face where no vessel ends is none", "[geometry][flat_faces]")
     THEN("a round end is none") {
         CHECK(faces_of([](const Vec3& p) {
                   return capsule(p, {0.0, 0.0, -30.0}, {0.0, 0.0, 0.0}, kRadius);
+              }).empty());
+    }
+    THEN("a flat place in the side of a vessel that passes is none") {
+        CHECK(faces_of([](const Vec3& p) {
+                  return std::max(capsule(p, {-20.0, 0.0, -6.0}, {20.0, 0.0, -6.0}, kRadius),
+                                  -std::hypot(p.x(), p.y()) > -3.0 ? p.z() + 3.0 : -1e3);
               }).empty());
     }
     THEN("the wall between the daughters of a furcation is none") {

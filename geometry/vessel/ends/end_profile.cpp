@@ -220,7 +220,8 @@ double lean_of(const EndProfile& profile) {
 
 double EndProfile::upright() const {
     if (kind != EndKind::Face) return 0.0;
-    return std::max(0.0, 1.0 - std::abs(lean_of(*this)) / kMostLean);
+    // Towards a flat place of a dome the wall never flares, as it may towards a cut.
+    return std::clamp(1.0 - lean_of(*this) / kMostLean, 0.0, 1.0);
 }
 
 double EndProfile::need() const {

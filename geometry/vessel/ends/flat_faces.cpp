@@ -26,27 +26,26 @@ constexpr double kLongest = 2.0;
 constexpr double kFilled = 0.75;
 /// Smaller ones are triangles of a coarse wall [mean edges].
 constexpr double kSmallest = 2.0;
-/// The vessel is measured so far behind the face, and is so wide there [radii of the face].
+/// The vessel is measured so far behind the face, and its longer half is so wide there [radii of
+/// the face]: the median may be smaller where the vessel leaves obliquely.
 constexpr double kBehind = 0.75;
 constexpr double kNarrowest = 0.8, kWidest = 1.8;
 constexpr int kRays = 16;
-/// One ray may lead into a side branch; others are no longer than this beside their median: a
-/// vessel runs along the wall of a furcation.
-constexpr int kSideBranch = 1;
-constexpr double kLongestRay = 1.8;
 /// The vessel stays as wide within these factors, looked at in steps of so many radii.
 constexpr double kNarrower = 0.7, kWider = 1.35;
 constexpr double kStep = 0.25;
 constexpr double kFarthest = 8.0;
 constexpr double kLeastLength = 1.0;
 
-/// What lies within a radius of the vessel behind a face is a plug: it does not rise over the face,
-/// as daughters beside the wall of a furcation do [radii of the face], nor run along beside it, as
-/// a vessel does behind a flat place in its side [radii of the vessel].
+/// Around a face that closes a vessel the wall falls off as deep as the vessel is measured, and
+/// leans outward by less than 45 degrees on the way, in so many of the sectors in which there are
+/// triangles to tell: in the others a branch leaves, or the vessel turns. Around a flat place of a
+/// dome it falls off nowhere, and beside one in the side of a vessel not along it [-].
+constexpr std::size_t kSectors = 24;
+constexpr double kFalling = 0.8;
+/// It does not rise over the face, as daughters beside the wall of a furcation do [radii of the
+/// face], but in a branch narrower than this [radii of the vessel].
 constexpr double kRise = 0.5;
-constexpr double kBeside = 4.0;
-/// A branch close to the end of a much wider vessel may do both: it is narrower than this [radii of
-/// the vessel].
 constexpr double kThinBranch = 0.5;
 constexpr double kJustInside = 1e-3;  // mean edges
 
@@ -248,8 +247,8 @@ private:
             return std::nullopt;
         const Lumen behind = lumen_at(centre - kBehind * radius * normal, normal);
         const double lumen = behind.radius;
-        if (lumen < kNarrowest * radius || behind.quartile > kWidest * radius ||
-            behind.most > kLongestRay * lumen)
+        if (!(lumen > 0.0) || behind.quartile < kNarrowest * radius ||
+            behind.quartile > kWidest * radius)
             return std::nullopt;
         FlatFace face{.centre = centre,
                       .normal = normal,
@@ -284,23 +283,69 @@ private:
         return depth;
     }
 
+    /// Directions around a face, by sector.
+    struct Around {
+        Vec3 centre, normal, u, v;
+
+        [[nodiscard]] double height(const Vec3& p) const { return (p - centre).dot(normal); }
+
+        [[nodiscard]] double side(const Vec3& p) const {
+            return (p - centre - height(p) * normal).norm();
+        }
+
+        [[nodiscard]] std::size_t sector(const Vec3& p) const {
+            const double turn = std::atan2((p - centre).dot(v), (p - centre).dot(u));
+            const double share = 0.5 + 0.5 * turn / std::numbers::pi;
+            return std::min(kSectors - 1, static_cast<std::size_t>(share * kSectors));
+        }
+    };
+
+    /// How far the wall around a face may lie to the side, by sector [mm].
+    [[nodiscard]] std::array<double, kSectors> reaches(const FlatFace& face, const Around& around,
+                                                       double radius) const {
+        std::array<double, kSectors> reach{};
+        reach.fill((1.0 + kBehind) * radius);
+        for (const TriangleId t : face.triangles)
+            for (const VertexId v : surface_.triangles()[t]) {
+                const Vec3& p = surface_.points()[v];
+                double& most = reach[around.sector(p)];
+                most = std::max(most, around.side(p) + kBehind * radius);
+            }
+        return reach;
+    }
+
     /// True if the vessel ends at the face. \param radius of the face [mm]
     [[nodiscard]] bool is_plug(const FlatFace& face, double radius) {
+        const auto [u, v] = plane_axes(face.normal);
+        const Around around{face.centre, face.normal, u, v};
+        const std::array<double, kSectors> reach = reaches(face, around, radius);
+        std::array<bool, kSectors> falls{}, leaves{};
         std::vector<TriangleId> part = face.triangles;
         in_.assign(part);
         for (std::size_t i = 0; i < part.size(); ++i) {
-            const Vec3 from = middle(part[i]) - face.centre;
-            const double height = from.dot(face.normal);
-            if (height < -face.radius) continue;
-            if (height > kRise * radius ||
-                (from - height * face.normal).norm() > kBeside * face.radius) {
+            const Vec3 at = middle(part[i]);
+            const std::size_t sector = around.sector(at);
+            if (around.side(at) > reach[sector]) {
+                leaves[sector] = leaves[sector] || around.height(at) > -kBehind * radius;
+                continue;
+            }
+            if (around.height(at) <= -kBehind * radius) {
+                falls[sector] = true;
+                continue;
+            }
+            if (around.height(at) > kRise * radius) {
                 if (lumen_behind(part[i]) > kThinBranch * face.radius) return false;
                 continue;
             }
             for (const TriangleId next : neighbours_[part[i]])
                 if (next != kNoTriangle && in_.insert(next)) part.push_back(next);
         }
-        return true;
+        double fallen = 0.0, known = 0.0;
+        for (std::size_t k = 0; k < kSectors; ++k) {
+            fallen += falls[k] ? 1.0 : 0.0;
+            known += falls[k] || leaves[k] ? 1.0 : 0.0;
+        }
+        return fallen > 0.0 && fallen >= kFalling * known;
     }
 
     /// Width of the vessel behind a triangle [mm].
@@ -335,8 +380,7 @@ private:
     struct Lumen {
         double radius = 0.0;  ///< median over directions [mm]; 0: the point is outside
         double quartile =
-            0.0;            ///< a quarter of the directions is longer, as along a flat side [mm]
-        double most = 0.0;  ///< of all but kSideBranch directions [mm]
+            0.0;  ///< a quarter of the directions is longer, as along a flat side [mm]
         Vec3 middle = Vec3::Zero();
     };
 
@@ -357,8 +401,7 @@ private:
         }
         std::ranges::sort(lengths);
         if (!(weight > 0.0)) return {};
-        return {lengths[kRays / 2], lengths[3 * kRays / 4], lengths[kRays - 1 - kSideBranch],
-                point + 2.0 / 3.0 * moment / weight};
+        return {lengths[kRays / 2], lengths[3 * kRays / 4], point + 2.0 / 3.0 * moment / weight};
     }
 
     const Surface& surface_;
