@@ -372,6 +372,9 @@ void forms(Photographer& p) {
 void places(Photographer& p) {
     p.click("rail.openings");
     p.click("choose.clip-opening");
+    p.wait();
+    p.rest_mouse();
+    p.take("ends");
     p.click("field.tip.pick");
     p.wait();
     p.rest_mouse();
