@@ -51,12 +51,12 @@ def section(tool, quick):
     widened = lines_of("widen", "thread", FIRST, FIRST + threads - 1, 0.25)
     folded = sum("guard" in line for line in widened)
     return ["## What is beside a contact", "",
-            f"Seeds from {FIRST} on (tests/support/crowded_contacts.h): what touches is the dome of a sac, a furcation is 0.8 to 3",
-            "radii away, or a third vessel passes both. Wrong is a result that loses a sac or an end, cuts a vessel, or changes the",
-            "volume by more than 10 %.", "",
+            f"Seeds from {FIRST} on (tests/support/crowded_contacts.h): what touches is the dome of a sac, a furcation is",
+            "0.8 to 3 radii away, or a third vessel passes both. Wrong is a result that loses a sac or an end, cuts a vessel,",
+            "or changes the volume by more than 10 %.", "",
             *table("separate", count), "", *table("stamp", min(count, 40)), "",
-            f"`widen width=1` on {threads} threads of 0.4 to 0.8 mm between two vessels: {folded} are refused since walls beside",
-            f"the thread would be folded over, {threads - folded} become as wide as asked."]
+            f"`widen width=1` on {threads} threads of 0.4 to 0.8 mm between two vessels: {folded} are refused since walls",
+            f"beside the thread would be folded over, {threads - folded} become as wide as asked."]
 
 
 def main():
