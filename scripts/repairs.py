@@ -4,8 +4,8 @@
   scripts/repairs.py [--only NAME]... [--quick] [--out FILE]
 
 Each section is measured by scripts/repairs_NAME.py. --only renews these sections and keeps the others as they are on the page.
---quick measures a few seeds, and prints the sections. Needs the targets bench_stamp, bench_separate, bench_narrowing and
-bench_posing.
+--quick measures a few seeds, and prints the sections. Needs the targets bench_stamp, bench_separate, bench_crowded,
+bench_narrowing and bench_posing.
 """
 import importlib
 import os
@@ -13,7 +13,7 @@ import os
 import common
 import page_rows
 
-SECTIONS = ["stamp", "separate", "narrowing", "findings", "deform"]
+SECTIONS = ["stamp", "separate", "crowded", "narrowing", "findings", "deform"]
 PAGE = os.path.join(common.ROOT, "docs", "science", "repairs.md")
 HEAD = """# Repairs
 

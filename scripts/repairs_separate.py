@@ -87,7 +87,8 @@ def section(tool, quick, first=101):
             "the vessels are joined elsewhere as well, so that the contact makes a handle. The waist is the contact's width over",
             "the thinner vessel's diameter. Beside it, what a slab by `stamp` at the same place achieves.", "",
             "| | goal | separate | stamp |", "|---|---|---|---|", *rows(lines, stamped), "",
-            "The phantoms' sections are circular, as the tubes suppose; vessels' need not be. No furcation is near the contacts.",
+            "The phantoms' sections are circular, as the tubes suppose; vessels' need not be. No furcation is near the contacts;",
+            "the next section has them.",
             ""]
 
 

@@ -113,9 +113,9 @@ std::string caught(const std::string& how) {
 /// Whether the row below is honest; replays of older edits meet rows that state less than before.
 bool states_all = true;
 
-Operation lying_row() {
-    Operation row = find_test_operation("bump");
-    row.name = "lie";
+Operation lying_row(const char* name, const char* like) {
+    Operation row = find_test_operation(like);
+    row.name = name;
     row.may_change = [](const Scene&, const Outcome&) {
         return states_all ? StatedChange{} : StatedChange{.zones = {{{kTop, 0.1}}}};
     };
@@ -123,9 +123,10 @@ Operation lying_row() {
 }
 
 SessionOptions with_liar() {
-    static const Operation liar = lying_row();
+    static const Operation liar = lying_row("lie", "bump"), live = lying_row("live-lie", "stroke");
     SessionOptions made = options();
     made.find = [](const std::string& name) -> const Operation& {
+        if (name == "live-lie") return live;
         return name == "lie" ? liar : find_test_operation(name);
     };
     return made;
@@ -186,6 +187,8 @@ SCENARIO("An edit that takes more than its operation states is refused, whoever 
     states_all = false;
     CHECK_THROWS_AS(session.apply("lie", bump), DiagnosedFailure);
     CHECK_THROWS_AS(session.preview("lie", bump), DiagnosedFailure);
+    LiveEdit live = session.start_live("live-lie", {{"heights", std::vector<double>{0.5}}});
+    CHECK_THROWS_AS(session.preview(live), DiagnosedFailure);
     CHECK(session.log().size() == 1);
     CHECK(top_of(session.scene()) == top);
     try {

@@ -183,10 +183,11 @@ bool cuts_vessel(const CrowdedContact& contact, const Surface& after) {
 }
 
 double farthest_kept(const CrowdedContact& contact, const Surface& after) {
-    const SurfaceDistance wall(after);
+    const SurfaceDistance was(contact.surface), wall(after);
     double farthest = 0.0;
-    for (const Vec3& p : contact.kept)
-        farthest = std::max(farthest, wall.closest_point(p).distance);
+    for (const Vec3& p : contact.kept)  // an end may lie within another vessel
+        farthest =
+            std::max(farthest, wall.closest_point(p).distance - was.closest_point(p).distance);
     return farthest;
 }
 

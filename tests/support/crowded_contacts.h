@@ -31,7 +31,7 @@ struct CrowdedContact {
 /// True if places of one vessel are on different parts of a surface.
 [[nodiscard]] bool cuts_vessel(const CrowdedContact& contact, const Surface& after);
 
-/// The farthest of what must be kept from a surface [mm].
+/// How much farther from the wall than before the places lie that must be kept, at most [mm].
 [[nodiscard]] double farthest_kept(const CrowdedContact& contact, const Surface& after);
 
 }  // namespace vesselbench::test

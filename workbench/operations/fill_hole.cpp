@@ -77,6 +77,8 @@ StatedChange closed_holes(const Scene& before, const Outcome& outcome) {
     }
     const auto holes = static_cast<int>(stated.zones->size());
     stated.rims = {-holes, -holes};
+    if (outcome.resolved.integer("continuity") > 0)
+        stated.remedies = {{.arguments = {{"continuity", "0"}}}};
     return stated;
 }
 

@@ -44,7 +44,8 @@ StatedChange removed_branch(const Scene& before, const Outcome&) {
     return {.handles = kAnyLoss,
             .rims = kAnyLoss,
             .volume_gained = kBulge * std::abs(volume(surface_of(before))),
-            .keeps_walls_apart = true};
+            .keeps_walls_apart = true,
+            .remedies = {{.arguments = {{"margin", ""}}}}};
 }
 
 }  // namespace

@@ -82,6 +82,11 @@ bool has_corner_in(const Surface& surface, const Triangle& t,
 
 }  // namespace
 
+bool same_triangles(const Surface& a, const Surface& b) {
+    return a.topology == b.topology || (a.vertex_count() == b.vertex_count() &&
+                                        std::ranges::equal(a.triangles(), b.triangles()));
+}
+
 bool is_outside(const Vec3& place, std::span<const ChangeZone> zones) {
     return std::ranges::none_of(zones, [&](const ChangeZone& zone) {
         return (place - zone.centre).squaredNorm() <= zone.radius * zone.radius;
@@ -90,8 +95,7 @@ bool is_outside(const Vec3& place, std::span<const ChangeZone> zones) {
 
 std::optional<Vec3> change_outside(const Surface& before, const Surface& after,
                                    std::span<const ChangeZone> zones) {
-    if (before.topology == after.topology)
-        return moved_outside(before.points(), after.points(), zones);
+    if (same_triangles(before, after)) return moved_outside(before.points(), after.points(), zones);
     const auto was = outside_flags(before, zones), is = outside_flags(after, zones);
     if (sum_outside(before, was) == sum_outside(after, is)) return std::nullopt;
     const auto lost = first_missing(before, was, after, is);
@@ -102,7 +106,7 @@ std::vector<std::uint8_t> triangles_missing_in(
     const Surface& other, const Surface& surface,
     const std::optional<std::vector<ChangeZone>>& zones) {
     std::vector<std::uint8_t> missing(surface.triangle_count(), 0);
-    if (other.topology == surface.topology) {
+    if (same_triangles(other, surface)) {
         for (TriangleId t = 0; t < missing.size(); ++t)
             for (const VertexId v : surface.triangles()[t])
                 if (surface.points()[v] != other.points()[v]) missing[t] = 1;

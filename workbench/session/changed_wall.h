@@ -13,6 +13,9 @@ namespace vesselbench {
 /// What differs between two surfaces. Vertices and triangles are compared by the bits of their
 /// places, so that it does not matter how they are numbered.
 
+/// True if vertices may have moved, but triangles have the same corners.
+[[nodiscard]] bool same_triangles(const Surface& a, const Surface& b);
+
 /// True for a place in none of the zones.
 [[nodiscard]] bool is_outside(const Vec3& place, std::span<const ChangeZone> zones);
 

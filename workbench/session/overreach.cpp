@@ -33,11 +33,6 @@ Connectivity connectivity_of(const Topology& topology) {
         [](const Connectivity& made) { return sizeof made; });
 }
 
-bool same_triangles(const Surface& a, const Surface& b) {
-    return a.topology == b.topology || (a.vertex_count() == b.vertex_count() &&
-                                        std::ranges::equal(a.triangles(), b.triangles()));
-}
-
 Finding growth_beyond(const AllowedGrowth& allowed, const char* code, std::int64_t before,
                       std::int64_t after) {
     const std::int64_t growth = after - before;
