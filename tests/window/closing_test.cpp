@@ -237,10 +237,10 @@ SCENARIO("A device without memory leaves the window open", "[window][closing]") 
 SCENARIO("Closing while an edit runs asks first", "[window][closing]") {
     const auto shell = test_shell();
     if (!shell) return;
-    open_and_wait(*shell, tube_file(120));
+    open_and_wait(*shell, tube_file(240));
     App& app = shell->app();
     Document& document = app.place().document;
-    document.apply("smooth", {{"iterations", Value(std::int64_t{100000})}}, Step::Smoothing);
+    document.apply("smooth", {{"iterations", Value(std::int64_t{10000})}}, Step::Smoothing);
     REQUIRE(document.is_editing());
     shell->frame();
     WHEN("the case is closed") {
@@ -270,8 +270,9 @@ SCENARIO("Closing while an edit runs asks first", "[window][closing]") {
     }
     WHEN("the window is closed") {
         CHECK_FALSE(app.may_close());
-        shell->frame();
+        for (int i = 0; i < 3; ++i) shell->frame();
         REQUIRE(shell->click_item("leaving.leave"));
+        shell->frame();
         CHECK(app.closes());
         CHECK(app.may_close());
     }

@@ -50,7 +50,7 @@ SCENARIO("load-surface asks where two units are near", "[workbench][source]") {
     write_unitless(open_tube(1.0, 12.0, 24, 40), file);
     CHECK_THROWS_WITH(run("load-surface", {}, {{"file", file}}),
                       Contains("in mm it is 12.3 mm long") && Contains("in cm it is 123 mm long") &&
-                          Contains("units, which is mm, cm, m or um"));
+                          Contains("--units mm or --units cm"));
     CHECK_THROWS_AS(run("load-surface", {}, {{"file", file}}), UsageError);
     const Outcome guessed = run("load-surface", {}, {{"file", file}, {"units", "guess"}});
     CHECK(guessed.resolved.text("units") == "mm");

@@ -20,7 +20,9 @@ void leave_now(PanelContext& c) {
 
 void draw_buttons(PanelContext& c) {
     const float width = c.ui.em * 11;
-    ImGui::SetCursorPosX(ImGui::GetWindowWidth() - c.ui.grid(2.5F) - 2 * width - c.ui.grid(1));
+    // At the lower end: what runs changes the length of the text above.
+    ImGui::SetCursorPos({ImGui::GetWindowWidth() - c.ui.grid(2.5F) - 2 * width - c.ui.grid(1),
+                         ImGui::GetWindowHeight() - c.ui.grid(2.5F) - ImGui::GetFrameHeight()});
     const bool stays =
         button(c.ui, "leaving.stay", "Let it run", {.primary = true, .width = width});
     ImGui::SameLine(0, c.ui.grid(1));
@@ -46,7 +48,6 @@ void draw_leaving_dialog(PanelContext& c, const ScreenRect& window) {
             (activity ? activity->what + ". " : "") +
                 "Closing cancels it; the edits that are made are kept.",
             ui.theme.muted, false);
-    space(ui, 1);
     draw_buttons(c);
     end_frame();
 }
