@@ -214,7 +214,7 @@ Finding folds_beyond(const StatedChange& stated, const Surface& before, const Su
         return std::nullopt;
     return error(
         "edit-folds-wall", place,
-        {{"edges", static_cast<double>(folded / 2)},
+        {{"edges", std::floor(0.5 * static_cast<double>(folded))},
          {"share_percent", 100.0 * static_cast<double>(folded) / static_cast<double>(edges)}});
 }
 
