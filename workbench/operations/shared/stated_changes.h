@@ -12,9 +12,10 @@ namespace vesselbench {
     return {.keeps_triangles = true};
 }
 
-/// Other triangles of the same vessels; what touched at a vertex may come apart.
+/// Other triangles of the same vessels; what touched at a vertex may come apart, and a loop with
+/// it.
 [[nodiscard]] inline StatedChange kept_vessels(const Scene&, const Outcome&) {
-    return {.parts = kAnyGain};
+    return {.parts = kAnyGain, .handles = kAnyLoss};
 }
 
 }  // namespace vesselbench
