@@ -60,7 +60,7 @@ def recipe(folder, sac):
     """The default recipe for the flow in an image's vessel, up to its remeshing, as a file. sac:
     a place that stays closed, or none.
     """
-    used = {"image", "cfd", "no-planning", "no-simulation", "no-rp"}
+    used = {"image", "no-mask", "cfd", "no-planning", "no-simulation", "no-rp"}
     with open(os.path.join(ROOT, "workbench", "prepare", "recipes", "prepare.json")) as file:
         entries = json.load(file)
     for entry in entries:
