@@ -10,6 +10,7 @@
 #include "workbench/batch/case_report.h"
 #include "workbench/batch/run_case.h"
 #include "workbench/case/csv_text.h"
+#include "workbench/case/listed_finding.h"
 
 namespace vesselbench {
 
@@ -40,14 +41,6 @@ std::vector<std::string> words_in(const Json& report, const char* list, const ch
     return words;
 }
 
-/// As reports do, which fold what is more likely wrong than right.
-bool is_listed(const Json& finding) {
-    constexpr double kLeast = 0.5;
-    const auto certainty = finding.find("certainty");
-    return certainty == finding.end() || !certainty->is_number() ||
-           certainty->get<double>() >= kLeast;
-}
-
 void add_report(TableRow& row, const Json& report) {
     const auto any = [](const Json&) { return true; };
     const auto not_met = [](const Json& one) {
@@ -58,7 +51,8 @@ void add_report(TableRow& row, const Json& report) {
     row.not_met = words_in(report, "requirements", "requirement", not_met);
     if (const auto findings = report.find("findings");
         findings != report.end() && findings->is_array())
-        row.findings = static_cast<std::size_t>(std::ranges::count_if(*findings, is_listed));
+        row.findings =
+            static_cast<std::size_t>(std::ranges::count_if(*findings, is_listed_finding));
     for (const TableFigure& figure : table_figures())
         row.figures[figure.name] = figure_in(report, figure);
 }

@@ -4,11 +4,14 @@
 
 namespace vesselbench {
 
-std::string readable(const std::string& name) {
-    std::string words = name;
-    for (char& letter : words)
+std::string with_blanks(std::string name) {
+    for (char& letter : name)
         if (letter == '-' || letter == '_') letter = ' ';
-    return readable_sentence(std::move(words));
+    return name;
+}
+
+std::string readable(const std::string& name) {
+    return readable_sentence(with_blanks(name));
 }
 
 std::string readable_sentence(std::string sentence) {

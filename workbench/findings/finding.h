@@ -6,6 +6,7 @@
 
 #include "geometry/kernel/diagnostic.h"
 #include "geometry/kernel/vec3.h"
+#include "workbench/case/listed_finding.h"
 #include "workbench/findings/reading.h"
 
 namespace vesselbench {
@@ -35,11 +36,7 @@ struct Finding {
     [[nodiscard]] const Remedy* treatment() const;
 };
 
-/// Findings of less certainty are not listed unless asked for [-]: they are more often wrong than
-/// right.
-inline constexpr double kListed = 0.5;
-
-/// How many of them are listed: the first ones. \param findings the most certain first
+/// How many findings are listed (kListed): the first ones. \param findings the most certain first
 [[nodiscard]] std::size_t listed_count(std::span<const Finding> findings);
 
 /// What an id says.

@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "workbench/case/point_json.h"
+
 namespace vesselbench {
 
 namespace {
@@ -23,7 +25,7 @@ std::optional<Vec3> place_in(const Json& end) {
     if (!place.is_array() || place.size() != 3) return std::nullopt;
     for (const Json& coordinate : place)
         if (!coordinate.is_number()) return std::nullopt;
-    return Vec3(place[0].get<double>(), place[1].get<double>(), place[2].get<double>());
+    return point_from(place);
 }
 
 /// None if it was not judged.

@@ -240,7 +240,6 @@ std::unique_ptr<Stepper> live_weight(const Scene& scene, const CheckedArguments&
                       arguments, progress);
 }
 
-/// Common part of all brushes.
 /// Each dab reaches along the wall from a place within one local radius of its anchor.
 StatedChange brushed(const Scene&, const Outcome& outcome) {
     StatedChange stated{.keeps_triangles = true};
@@ -251,6 +250,7 @@ StatedChange brushed(const Scene&, const Outcome& outcome) {
     return stated;
 }
 
+/// Common part of all brushes.
 Operation brush(const std::string& name, double weakest, const std::string& summary,
                 const std::string& strength) {
     return {.name = name,

@@ -118,16 +118,16 @@ std::vector<Remedy> another_place() {
     return {{.arguments = {{"at", ""}}}, {.operation = "stamp"}};
 }
 
-std::optional<Diagnostic> doubt_about(const Json& figures) {
+/// \param thinner radius of the thinner vessel [mm]
+std::optional<Diagnostic> doubt_about(const Json& figures, double thinner) {
     const double width = figures.at("contact_width_mm").get<double>(),
-                 waist = figures.at("waist").get<double>(),
                  height = figures.at("lost_height_mm").get<double>();
-    if (waist > kWidest)
+    if (figures.at("waist").get<double>() > kWidest)
         return Diagnostic{.code = "contact-too-wide",
                           .place = point_from(figures.at("contact_mm")),
-                          .figures = {{"width_mm", width}, {"diameter_mm", width / waist}},
+                          .figures = {{"width_mm", width}, {"diameter_mm", 2.0 * thinner}},
                           .remedies = another_place()};
-    if (height > 0.5 * kHighest * width / waist)
+    if (height > kHighest * thinner)
         return Diagnostic{.code = "contact-not-alone",
                           .place = point_from(figures.at("lost_height_at_mm")),
                           .figures = {{"height_mm", height}},
@@ -148,7 +148,7 @@ StatedChange parted_vessels(const Scene&, const Outcome& outcome) {
             .wall_lost = kLost * thinner + figures.at("gap_mm").get<double>(),
             .keeps_walls_apart = true,
             .remedies = another_place(),
-            .doubt = doubt_about(figures)};
+            .doubt = doubt_about(figures, thinner)};
 }
 
 }  // namespace

@@ -11,7 +11,6 @@
 #include "workbench/case/json_text.h"
 #include "workbench/operations/table.h"
 #include "workbench/prepare/result_folder.h"
-#include "workbench/review/review.h"
 #include "workbench/review/review_page.h"
 #include "workbench/session/stored_texts.h"
 
@@ -60,6 +59,12 @@ std::size_t kept_reviewers(const std::filesystem::path& project, const std::stri
     kept[purpose] = asked;
     store_text(project, StoredText::Acceptance, kept.dump());
     return asked;
+}
+
+void require_kept_acceptance(const std::filesystem::path& project, const std::string& purpose,
+                             const Review& review) {
+    const std::size_t reviewers = kept_reviewers(project, purpose, 0);
+    if (reviewers > 0) require_accepted(review, reviewers);
 }
 
 void pass_gate(Session& session, const std::string& purpose, std::size_t reviewers,

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "workbench/prepare/apply_recipe.h"
+#include "workbench/review/review.h"
 
 namespace vesselbench {
 
@@ -15,6 +16,12 @@ namespace vesselbench {
 /// \throw IoError, InvalidInput if the project cannot be read or written
 [[nodiscard]] std::size_t kept_reviewers(const std::filesystem::path& project,
                                          const std::string& purpose, std::size_t asked);
+
+/// Returns if as many reviewers as the project requires have accepted every edit of the purpose's
+/// model. \param review of that model
+/// \throw DiagnosedFailure `not-accepted` that names what is missing; as kept_reviewers()
+void require_kept_acceptance(const std::filesystem::path& project, const std::string& purpose,
+                             const Review& review);
 
 /// Returns if so many reviewers have accepted every edit of the purpose's model. Else the folder
 /// gets review.html, the page for the reviewers.

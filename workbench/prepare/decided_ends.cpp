@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/errors.h"
+#include "workbench/case/point_json.h"
 #include "workbench/operations/clip_opening/parameters.h"
 #include "workbench/operations/shared/opening_arguments.h"
 #include "workbench/operations/table.h"
@@ -102,8 +103,8 @@ private:
 
     /// None: nothing was decided, as of a part of another end.
     [[nodiscard]] std::optional<RankedEnd> reported_end(const Json& end) const {
-        const Json &at = end.at("place_mm"), &opening = end.at("opening");
-        const Vec3 place(at.at(0).get<double>(), at.at(1).get<double>(), at.at(2).get<double>());
+        const Json& opening = end.at("opening");
+        const Vec3 place = point_from(end.at("place_mm"));
         const auto diameter = end.at("diameter_mm").get<double>();
         const double reach = kNamedReach * diameter;
         if (opening.is_string())

@@ -217,10 +217,12 @@ DecidedEntry decided_entry(const RecipeEntry& entry, Session& session, const std
         const CheckedArguments all = checked_arguments(placed);
         const OpeningPlan plan = planned_openings(scene, all, progress);
         const Decisions decisions(plan, decided, all);
+        std::string remark = decisions.remark();
+        if (remark.empty()) return made;
         const GivenArguments completed = decisions.added_to(placed);
-        if (decisions.remark().empty() || !can_be_planned(completed, scene, progress)) return made;
+        if (!can_be_planned(completed, scene, progress)) return made;
         made.entry.given = completed;
-        made.remark = decisions.remark();
+        made.remark = std::move(remark);
     } catch (const AlgorithmFailure&) {  // the operation itself says what is wrong
     }
     return made;

@@ -7,6 +7,7 @@
 
 #include "geometry/kernel/wording.h"
 #include "workbench/case/argument_texts.h"
+#include "workbench/case/listed_finding.h"
 #include "workbench/case/purposes.h"
 #include "workbench/report/base64.h"
 #include "workbench/report/rendered_template.h"
@@ -245,19 +246,12 @@ std::string certainty_text(const Json& finding) {
     return of.is_string() ? share + " that " + shown(of) : share;
 }
 
-/// What is more likely wrong than right is folded.
-bool is_folded(const Json& finding) {
-    constexpr double kListed = 0.5;
-    const Json& certainty = part_of(finding, "certainty");
-    return certainty.is_number() && certainty.get<double>() < kListed;
-}
-
-/// What looks wrong on the model, the most certain first. \param folded those that are, or the
+/// What looks wrong on the model, the most certain first. \param listed those that are, or the
 /// others
-Json findings(const Json& report, bool folded) {
+Json findings(const Json& report, bool listed) {
     Json list = Json::array();
     for (const Json& finding : part_of(report, "findings"))
-        if (is_folded(finding) == folded)
+        if (is_listed_finding(finding) == listed)
             list.push_back({{"title", shown(part_of(finding, "title"))},
                             {"id", shown(part_of(finding, "id"))},
                             {"text", shown(part_of(finding, "text"))},
@@ -356,8 +350,8 @@ std::string report_html(const Json& report, std::span<const ReportPicture> pictu
                  {"requirements", requirements(report)},
                  {"openings", openings(report)},
                  {"ends", ends(report)},
-                 {"findings", findings(report, false)},
-                 {"folded", findings(report, true)},
+                 {"findings", findings(report, true)},
+                 {"folded", findings(report, false)},
                  {"sections", sections_of(report, sections)},
                  {"products", texts_of(part_of(report, "products"))}};
     for (const char* list : {"warnings", "findings", "pictures", "requirements", "ends"})

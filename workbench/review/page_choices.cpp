@@ -9,6 +9,7 @@
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
+#include "workbench/case/point_json.h"
 #include "workbench/report/log_json.h"
 
 namespace vesselbench {
@@ -56,10 +57,6 @@ ByHand decided_by_hand(const Operation& operation, const Arguments& given) {
     return by_hand;
 }
 
-Vec3 point_in(const Json& json) {
-    return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
-}
-
 double number_in(const Json& object, const char* key, double otherwise) {
     const auto found = object.find(key);
     return found != object.end() && found->is_number() ? found->get<double>() : otherwise;
@@ -79,7 +76,7 @@ void add_figures(const Json& report, DecidedOpenings& decided) {
             found->direction_sd = number_in(end, "direction_sd_deg", 0.0);
         const Json& odds = end["odds"];
         decided.ends.push_back(
-            {.place = point_in(end["place_mm"]),
+            {.place = point_from(end["place_mm"]),
              .diameter = number_in(end, "diameter_mm", 0.0),
              .opening = odds.is_object() ? number_in(odds, "opening", 0.5) : 0.5});
     }

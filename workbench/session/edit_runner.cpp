@@ -304,6 +304,7 @@ Outcome EditRunner::rerun(const HistoryResult& result, const Progress& progress)
 std::string EditRunner::excess(const HistoryResult& result, const Outcome& outcome,
                                const Progress& progress) {
     const Operation& operation = options_->find(store_->edit(result.edit).operation);
+    if (operation.may_change == nullptr) return "";
     const auto found = overreach_of(operation, load(result.input, progress), outcome, progress);
     return found ? text_of(*found) : "";
 }

@@ -58,12 +58,6 @@ struct ValueWords {
     }
 };
 
-std::string spaced(std::string name) {
-    for (char& letter : name)
-        if (letter == '_' || letter == '-') letter = ' ';
-    return name;
-}
-
 }  // namespace
 
 std::string argument_words(const Operation& operation, const Arguments& arguments) {
@@ -71,7 +65,8 @@ std::string argument_words(const Operation& operation, const Arguments& argument
     for (const Parameter& parameter : operation.parameters) {
         const auto found = arguments.values().find(parameter.name);
         if (found == arguments.values().end() || found->second == parameter.default_value) continue;
-        words.push_back(std::visit(ValueWords{parameter, spaced(parameter.name)}, found->second));
+        words.push_back(
+            std::visit(ValueWords{parameter, with_blanks(parameter.name)}, found->second));
     }
     return joined(words);
 }

@@ -433,8 +433,7 @@ void Document::export_to(const std::filesystem::path& file,
                            Session& session, const Progress& progress) {
         require_no_source(session, file);
         const Review review = review_of(session, variant);
-        const std::size_t reviewers = kept_reviewers(project, variant, 0);
-        if (reviewers > 0) require_accepted(review, reviewers);
+        require_kept_acceptance(project, variant, review);
         const Scene scene = session.scene(variant, progress.part(0.0, 0.7));
         PendingFiles files;
         const FlowSettings kept(stored_text(project, StoredText::Flow));

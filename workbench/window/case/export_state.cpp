@@ -10,9 +10,10 @@ namespace vesselbench {
 
 namespace {
 
-std::string why_not_accepted(const Review& review, std::size_t reviewers) {
+std::string why_not_accepted(const std::filesystem::path& project, const std::string& variant,
+                             const Review& review) {
     try {
-        if (reviewers > 0) require_accepted(review, reviewers);
+        require_kept_acceptance(project, variant, review);
         return "";
     } catch (const DiagnosedFailure& failure) {
         return failure.what();
@@ -27,7 +28,7 @@ ExportState export_state(const Session& session, const std::filesystem::path& pr
     const bool reviewed = review.files > 0;
     return {.review = reviewed ? review_words(review) : "",
             .unsettled = reviewed && status_of(review) != ReviewStatus::Accepted,
-            .refusal = why_not_accepted(review, kept_reviewers(project, variant, 0)),
+            .refusal = why_not_accepted(project, variant, review),
             .flow = FlowSettings(stored_text(project, StoredText::Flow)),
             .split = flow_in_vessel({}, session.log(variant)).split};
 }

@@ -24,14 +24,13 @@ void ExportChoices::begin(PanelContext& c) {
         "export state");
 }
 
-bool ExportChoices::poll() {
-    if (!reading_.poll()) return false;
+void ExportChoices::poll() {
+    if (!reading_.poll()) return;
     problem_ = reading_.problem();
     const auto read = reading_.newest();
-    if (!read) return true;
+    if (!read) return;
     state_ = *read;
     form_.emplace(flow_table(), state_->flow.given());
-    return true;
 }
 
 std::string ExportChoices::refusal() const {

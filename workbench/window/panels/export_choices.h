@@ -19,17 +19,16 @@ public:
     /// Reads the shown variant's state on the case's thread. \pre a case is open
     void begin(PanelContext& context);
 
-    /// Collects what was read. \return true if it was, just now
-    bool poll();
+    /// Collects what was read; once a frame.
+    void poll();
 
     [[nodiscard]] bool pending() const { return reading_.pending(); }
 
     /// Why nothing can be exported; empty: it can.
     [[nodiscard]] std::string refusal() const;
 
-    /// What the user has to confirm, "The model's review is rejected: 2 of
-    /// 5 edits accepted"; empty:
-    /// nothing.
+    /// What the user has to confirm: "The model's review is rejected: 2 of 5 edits accepted".
+    /// Empty: nothing.
     [[nodiscard]] std::string doubt() const;
 
     /// One line: the state of the review.

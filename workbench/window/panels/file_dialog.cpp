@@ -440,7 +440,7 @@ void FileDialog::draw(PanelContext& c, const ScreenRect& window) {
     }
     if (question_ != c.place.question()) begin(c);
     take_listing();
-    static_cast<void>(export_.poll());
+    export_.poll();
     const Ui& ui = c.ui;
     begin_dialog(ui, "file dialog", window, ui.em * 56, ui.em * 36);
     heading(ui, title_of(question_));

@@ -99,8 +99,7 @@ bool FindingsFeature::drop_stale() {
 std::vector<LogEntry> FindingsFeature::log() const {
     std::vector<LogEntry> log = core_.document.snapshot()->log;
     std::erase_if(log, [&](const LogEntry& entry) {
-        const std::string& variant = entry.edit.place.variant;
-        return !variant.empty() && variant != core_.document.variant();
+        return !is_part_of(entry.edit.place, core_.document.variant());
     });
     return log;
 }

@@ -22,8 +22,8 @@ namespace vesselbench {
 inline constexpr EditId kWholeModel = 0;
 
 /// What reviewers say of the shown variant's edits: read when a case is opened, and after each
-/// change once verdicts were entered or while the review step is shown; exchanged
-/// as files, and entered here. All of it runs on the case's thread.
+/// change while the review step is shown or once verdicts were entered; exchanged as files, and
+/// entered here. All of it runs on the case's thread.
 class ReviewFeature : public Feature {
 public:
     explicit ReviewFeature(Core& core) : core_(core), blink_(core) {}
