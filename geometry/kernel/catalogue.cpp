@@ -838,6 +838,12 @@ constexpr CatalogueText kTexts[] = {
     {"vessels-not-compared", "lost vessels could not be looked for: {reason}"},
     {"no-pictures", "the report has no pictures: {reason}"},
     // The record and its verdicts.
+    {"export-not-recorded",
+     "a model that reviewers have to accept is exported only where the record can say so: "
+     "{reason}"},
+    {"record-contradicted",
+     "the project is not what its record says, so no review of it counts; 'audit' names each "
+     "contradiction"},
     {"record-missing",
      "the project has no record of its edits: it gets one when this program opens it for writing"},
     {"record-unreadable", "the project cannot be read: {reason}"},

@@ -102,10 +102,10 @@ SCENARIO("Verdicts are paired if they are on the same content of an edit", "[rev
     WHEN("a reviewer decides again, the newest verdict counts") {
         import_verdicts(session,
                         save_verdicts(project, verdicts_on(session, "A. Kern", Verdict::Reject,
-                                                           "2030-01-02T00:00:00Z")));
+                                                           "2020-01-02T00:00:00Z")));
         import_verdicts(session,
                         save_verdicts(project, verdicts_on(session, "A. Kern", Verdict::Accept,
-                                                           "2029-01-02T00:00:00Z")));
+                                                           "2019-01-02T00:00:00Z")));
         const CohortAgreement cohort = cohort_agreement({project});
         CHECK(cohort.all.agreement.units == 3);
         CHECK(cohort.all.agreement.values == 6);

@@ -14,7 +14,7 @@ namespace vesselbench::test {
 /// \param written UTC
 [[nodiscard]] VerdictFile verdicts_on(const Session& session, const std::string& reviewer,
                                       Verdict verdict,
-                                      const std::string& written = "2030-01-01T00:00:00Z");
+                                      const std::string& written = "2020-01-01T00:00:00Z");
 
 /// Writes the verdicts beside the project. \return the file's path
 std::string save_verdicts(const std::string& project, const VerdictFile& verdicts);

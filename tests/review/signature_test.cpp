@@ -169,6 +169,39 @@ SCENARIO("Where signatures are required, only signed acceptances count", "[revie
         enter("A. Kern", Verdict::Accept, "");
         CHECK_THAT(missing(1).at(0), Contains("rejected by A. Kern"));
     }
+    THEN("no other key takes it back, whatever name it gives") {
+        const std::string other = new_signing_key();
+        const std::string both =
+            allowed_signers(allowed_line(kKern, review.key) + allowed_line("eve", other));
+        enter("A. Kern", Verdict::Reject, review.key);
+        enter("A. Kern", Verdict::Accept, other);
+        const auto entered = signed_or_rejecting(entered_verdicts(session.project(), both));
+        const Review found = review_of(session.project(), session.log(), entered);
+        CHECK(found.edits.at(0).verdicts.size() == 2);
+        CHECK(found.edits.at(0).status == ReviewStatus::Disputed);
+        CHECK(review_of(session).edits.at(0).status == ReviewStatus::Disputed);
+    }
+    THEN("another key of the same signer does") {
+        const std::string other = new_signing_key();
+        const std::string both =
+            allowed_signers(allowed_line(kKern, review.key) + allowed_line(kKern, other));
+        enter("A. Kern", Verdict::Reject, review.key);
+        enter("A. Kern", Verdict::Accept, other);
+        const auto entered = signed_or_rejecting(entered_verdicts(session.project(), both));
+        const Review found = review_of(session.project(), session.log(), entered);
+        CHECK(found.edits.at(0).verdicts.size() == 1);
+        CHECK(missing_acceptance(found, 1).empty());
+        CHECK_FALSE(missing_acceptance(found, 2).empty());
+    }
+    THEN("two keys under one name are one person") {
+        const std::string other = new_signing_key();
+        const std::string both =
+            allowed_signers(allowed_line(kKern, review.key) + allowed_line("eve", other));
+        enter("a. kern", Verdict::Accept, other);
+        const auto entered = signed_or_rejecting(entered_verdicts(session.project(), both));
+        const Review found = review_of(session.project(), session.log(), entered);
+        CHECK_THAT(missing_acceptance(found, 2).at(0), Contains("accepted by 1 of 2"));
+    }
     THEN("a key signs for one reviewer, whatever names it gives") {
         enter("D. Moser", Verdict::Accept, review.key);
         CHECK_THAT(missing(2).at(0), Contains("accepted by 1 of 2"));
@@ -246,6 +279,11 @@ SCENARIO("Signed verdicts are entered as they were signed", "[review][signature]
             CHECK(import_verdicts(session, review.file).known);
             CHECK(session.project().verdicts().size() == 1);
         }
+    }
+    WHEN("the signature is of other bytes, nothing is entered, whoever is allowed") {
+        write_file(review.file, file_content(review.file) + " ");
+        CHECK_THAT(import_error(review, ""), Contains("does not verify"));
+        CHECK(Session::open(review.project, options()).project().verdicts().empty());
     }
     WHEN("the signature does not verify, nothing is entered") {
         sign(review.file, review.key, "git");

@@ -85,7 +85,7 @@ VerdictFile file_of_roth(OffscreenShell& shell) {
     VerdictFile file{.program = "page",
                      .reviewer = "B. Roth",
                      .role = "surgeon",
-                     .written = "2030-01-01T00:00:00Z"};
+                     .written = "2020-01-01T00:00:00Z"};
     const auto origin =
         shell.app().place().document.runner()->submit([](Session& session, const Progress&) {
             return std::pair(session.project().id(), session.project().record_head());

@@ -12,6 +12,8 @@
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
 #include "tests/support/signing.h"
+#include "workbench/project/database.h"
+#include "workbench/project/project.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;
@@ -49,7 +51,7 @@ std::string verdicts(const std::string& project, const std::string& reviewer,
                          {"hash", edit["hash"]},
                          {"verdict", verdict},
                          {"comment", "because"},
-                         {"time", "2030-01-01T00:00:00Z"},
+                         {"time", "2020-01-01T00:00:00Z"},
                          {"pins", Json::array()},
                          {"distances", Json::array()}});
     const Json file = {{"format", "vesselbench-verdicts"},
@@ -58,7 +60,7 @@ std::string verdicts(const std::string& project, const std::string& reviewer,
                        {"project", {{"id", review["id"]}, {"name", "p"}}},
                        {"chain_head", review["head"]},
                        {"reviewer", {{"name", reviewer}, {"role", "radiologist"}}},
-                       {"written", "2030-01-01T00:00:00Z"},
+                       {"written", "2020-01-01T00:00:00Z"},
                        {"overall", {{"verdict", "none"}, {"comment", ""}}},
                        {"edits", edits}};
     write_file(to, file.dump());
@@ -98,6 +100,16 @@ SCENARIO("An export can require that reviewers have accepted the model",
         CHECK(audit["statement"]["sources"][0]["file"] == "ball.stl");
         CHECK_THAT(audit.dump(), !Contains(folder));
     }
+    THEN("an export that cannot be recorded says so, and is refused where it has to be") {
+        const ProjectFile writer = ProjectFile::open(project);
+        const ProgramRun said = run({"export", project, folder + "/other.stl"});
+        CHECK(said.exit_code == 0);
+        CHECK_THAT(said.err, Contains("the export is not recorded"));
+        const ProgramRun refused = run(gated);
+        CHECK(refused.exit_code == 1);
+        CHECK_THAT(refused.err, Contains("only where the record can say so"));
+        CHECK_FALSE(std::filesystem::exists(folder + "/out.stl"));
+    }
     THEN("two reviewers may be asked for") {
         const ProgramRun two =
             run({"export", project, folder + "/out.stl", "--require", "accepted=2"});
@@ -120,6 +132,77 @@ SCENARIO("An export can require that reviewers have accepted the model",
     THEN("wrong words are wrong usage") {
         for (const char* word : {"accept", "accepted=", "accepted=0", "accepted=x", "accepted=2x"})
             CHECK(run({"export", project, folder + "/out.stl", "--require", word}).exit_code == 2);
+    }
+}
+
+SCENARIO("An owner who changes the project's file does not pass the gate",
+         "[workbench][command-line][review][hostile]") {
+    static const Beginning beginning([](const std::string& folder) {
+        const std::string project = new_project(folder);
+        const std::string kern = verdicts(project, "A. Kern", "accept", folder + "/kern.json");
+        REQUIRE(run({"review", project, "--import", kern}).exit_code == 0);
+        const std::string accepted = folder + "/accepted.vbench";
+        std::filesystem::copy_file(project, accepted);
+        const std::string roth = verdicts(project, "B. Roth", "reject", folder + "/roth.json");
+        REQUIRE(run({"review", project, "--import", roth}).exit_code == 0);
+        return std::pair(project, accepted);
+    });
+    const auto& [rejected, accepted] = beginning.again();
+    const std::string file = beginning.folder() + "/out.stl";
+    const auto exported = [&](const std::string& project, std::vector<std::string> more) {
+        std::vector<std::string> command = {"export", project, file};
+        command.insert(command.end(), more.begin(), more.end());
+        return run(command);
+    };
+    const auto changed = [&](const std::string& project, const char* sql) {
+        const std::string copy = project + ".copy.vbench";
+        std::filesystem::copy_file(project, copy,
+                                   std::filesystem::copy_options::overwrite_existing);
+        Database(copy, OpenMode::Write).run(sql);
+        return copy;
+    };
+    THEN("what was rejected stays so, whatever rows are deleted or altered") {
+        for (const char* sql : {
+                 "DELETE FROM verdicts WHERE id = 2",
+                 "DELETE FROM verdicts WHERE id = 2; DELETE FROM chain WHERE number ="
+                 " (SELECT max(number) FROM chain)",
+                 "UPDATE verdicts SET content = (SELECT content FROM verdicts WHERE id = 1)"
+                 " WHERE id = 2",
+                 "UPDATE chain SET kind = 'note' WHERE kind = 'verdicts'",
+             }) {
+            INFO(sql);
+            const ProgramRun refused = exported(changed(rejected, sql), {"--require", "accepted"});
+            CHECK(refused.exit_code == 1);
+            CHECK_THAT(refused.err, Contains("not what its record says"));
+            CHECK_FALSE(std::filesystem::exists(file));
+        }
+    }
+    THEN("an accepted model is no other surface, variant or edit") {
+        CHECK(exported(accepted, {"--require", "accepted"}).exit_code == 0);
+        std::filesystem::remove(file);
+        for (const char* sql : {"UPDATE edits SET author = 'Eve'",
+                                "UPDATE edits SET given = (SELECT given FROM edits WHERE edit = 1)"
+                                " WHERE edit = 2",
+                                "UPDATE results SET scene = (SELECT scene FROM results LIMIT 1)"}) {
+            INFO(sql);
+            CHECK(exported(changed(accepted, sql), {"--require", "accepted"}).exit_code != 0);
+            CHECK_FALSE(std::filesystem::exists(file));
+        }
+        const ProgramRun other =
+            exported(accepted, {"--require", "accepted", "--variant", "nobody-saw-it"});
+        CHECK(other.exit_code == 2);
+        CHECK_THAT(other.err, Contains("has no variant 'nobody-saw-it'"));
+        CHECK_FALSE(std::filesystem::exists(file));
+    }
+    THEN("one person is not two reviewers") {
+        for (const char* name : {"a. KERN ", "A Kern", "A.\u00a0Kern", "\u0410. Kern"}) {
+            const std::string copy = changed(accepted, "SELECT 1");
+            const std::string again =
+                verdicts(copy, name, "accept", beginning.folder() + "/again.json");
+            run({"review", copy, "--import", again});
+            CHECK(exported(copy, {"--require", "accepted=2"}).exit_code == 1);
+            CHECK_FALSE(std::filesystem::exists(file));
+        }
     }
 }
 

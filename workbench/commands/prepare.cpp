@@ -146,7 +146,7 @@ void export_project(const ExportArguments& arguments, const Progress& progress) 
     check_export_name(arguments.file);
     check_export_place(arguments.file);
     check_shown(arguments);
-    std::size_t reviewers =
+    const std::size_t reviewers =
         arguments.required.empty() ? 0 : required_reviewers(arguments.required, "--require");
     Session session = Session::open(arguments.project, {.find = find_operation});
     std::vector<std::string> settings = arguments.settings;
@@ -158,14 +158,13 @@ void export_project(const ExportArguments& arguments, const Progress& progress) 
     refuse_source(session, arguments.file);
     const std::string variant =
         variant_of(arguments.project, arguments.variant, *session.snapshot()->history);
-    reviewers = std::max(reviewers, kept_reviewers(arguments.project, variant, 0));
     const Scene scene = session.scene(variant, progress.part(0.0, 0.6));
     const std::vector<LogEntry> log = session.log(variant);
     std::vector<EnteredVerdicts> verdicts =
         entered_verdicts(session.project(), arguments.signers, progress);
     if (!arguments.signers.empty()) verdicts = signed_or_rejecting(std::move(verdicts));
     const Review review = review_of(session.project(), log, verdicts);
-    if (reviewers > 0) require_accepted(review, reviewers);
+    require_acceptance(session, arguments.project, variant, reviewers, review);
     for (const LogEntry& entry : log)
         if (entry.status == EditStatus::Stale)
             remark("warning: edit " + std::to_string(entry.edit.edit.id) + " " +
@@ -179,7 +178,8 @@ void export_project(const ExportArguments& arguments, const Progress& progress) 
     export_scene(files, arguments.file, scene, options, progress.part(0.7, 1.0));
     progress.check_cancelled();
     files.commit();
-    record_export(session, arguments.file, variant);
+    if (!record_export(session, arguments.file, variant))
+        remark("warning: the export is not recorded: " + session.read_only_reason());
     if (!arguments.json) return void(std::cout << "wrote " << arguments.file << "\n");
     Json json = {{"file", arguments.file}, {"variant", variant}, {"review", review_words(review)}};
     if (scene.surface) json["triangles"] = scene.surface->triangle_count();

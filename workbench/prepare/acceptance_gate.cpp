@@ -11,6 +11,7 @@
 #include "workbench/case/json_text.h"
 #include "workbench/operations/table.h"
 #include "workbench/prepare/result_folder.h"
+#include "workbench/review/record_gate.h"
 #include "workbench/review/review_page.h"
 #include "workbench/session/stored_texts.h"
 
@@ -61,14 +62,19 @@ std::size_t kept_reviewers(const std::filesystem::path& project, const std::stri
     return asked;
 }
 
-void require_kept_acceptance(const std::filesystem::path& project, const std::string& purpose,
-                             const Review& review) {
-    const std::size_t reviewers = kept_reviewers(project, purpose, 0);
-    if (reviewers > 0) require_accepted(review, reviewers);
+void require_acceptance(const Session& session, const std::filesystem::path& project,
+                        const std::string& purpose, std::size_t asked, const Review& review) {
+    const std::size_t reviewers = std::max(asked, kept_reviewers(project, purpose, 0));
+    require_sound_record(session, reviewers);
+    if (reviewers == 0) return;
+    require_accepted(review, reviewers);
+    if (const std::string& reason = session.read_only_reason(); !reason.empty())
+        throw DiagnosedFailure({.code = "export-not-recorded", .words = {{"reason", reason}}});
 }
 
 void pass_gate(Session& session, const std::string& purpose, std::size_t reviewers,
                const std::filesystem::path& folder, const Teller& tell, const Progress& progress) {
+    require_sound_record(session, reviewers);
     if (reviewers == 0) return;
     const Review review = review_of(session, purpose);
     if (!missing_acceptance(review, reviewers).empty())

@@ -17,15 +17,18 @@ namespace vesselbench {
 [[nodiscard]] std::size_t kept_reviewers(const std::filesystem::path& project,
                                          const std::string& purpose, std::size_t asked);
 
-/// Returns if as many reviewers as the project requires have accepted every edit of the purpose's
-/// model. \param review of that model
-/// \throw DiagnosedFailure `not-accepted` that names what is missing; as kept_reviewers()
-void require_kept_acceptance(const std::filesystem::path& project, const std::string& purpose,
-                             const Review& review);
+/// Returns if as many reviewers as are asked for, or as the project requires if those are more,
+/// have accepted every edit of the purpose's model, the record is sound, and the export can be
+/// entered into it.
+/// \param review of that model
+/// \throw DiagnosedFailure `not-accepted` that names what is missing, `export-not-recorded`; as
+/// kept_reviewers() and require_sound_record()
+void require_acceptance(const Session& session, const std::filesystem::path& project,
+                        const std::string& purpose, std::size_t asked, const Review& review);
 
 /// Returns if so many reviewers have accepted every edit of the purpose's model. Else the folder
 /// gets review.html, the page for the reviewers.
-/// \throw DiagnosedFailure `not-accepted` that names what is missing
+/// \throw DiagnosedFailure `not-accepted` that names what is missing; as require_sound_record()
 void pass_gate(Session& session, const std::string& purpose, std::size_t reviewers,
                const std::filesystem::path& folder, const Teller& tell, const Progress& progress);
 

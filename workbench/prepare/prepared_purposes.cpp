@@ -4,9 +4,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "geometry/kernel/errors.h"
 #include "geometry/kernel/plain_name.h"
+#include "geometry/kernel/printable.h"
+#include "geometry/kernel/wording.h"
 #include "workbench/case/json_fields.h"
 #include "workbench/case/json_text.h"
+#include "workbench/case/purposes.h"
 #include "workbench/operations/table.h"
 #include "workbench/session/edit_place.h"
 #include "workbench/session/stored_texts.h"
@@ -53,7 +57,15 @@ void end_purpose(const std::filesystem::path& project, const std::string& purpos
 
 std::string variant_of(const std::filesystem::path& project, const std::string& asked,
                        const History& history) {
-    return variant_meant(asked.empty() ? prepared_purposes(project).last : asked, history);
+    const PreparedPurposes purposes = prepared_purposes(project);
+    if (asked.empty()) return variant_meant(purposes.last, history);
+    std::vector<std::string> known = history.variants();
+    known.insert(known.end(), purposes.done.begin(), purposes.done.end());
+    if (known.empty()) known = purpose_names();  // models that shared steps alone make
+    if (asked != purposes.last && std::ranges::count(known, asked) == 0)
+        throw UsageError("the project has no variant '" + shortened(printable(asked)) +
+                         "'; it has " + enumerated(known));
+    return asked;
 }
 
 std::vector<std::string> other_purposes(const Snapshot& now, std::vector<std::string> done,

@@ -27,7 +27,8 @@ void end_purpose(const std::filesystem::path& project, const std::string& purpos
 
 /// The variant that is meant where `asked` is empty: the purpose that the project was prepared for
 /// last, else as variant_meant().
-/// \throw as prepared_purposes()
+/// \throw UsageError if the project has no variant that is asked for, and was not prepared for it;
+/// as prepared_purposes()
 [[nodiscard]] std::string variant_of(const std::filesystem::path& project, const std::string& asked,
                                      const History& history);
 

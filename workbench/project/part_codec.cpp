@@ -246,6 +246,12 @@ std::size_t memory_bytes(const ScenePart& part) {
     return content_of(part).bytes.size();
 }
 
+std::string part_words(const ScenePart& part) {
+    constexpr const char* kWords[] = {"triangles", "positions", "patch labels",
+                                      "attribute", "voxels",    "volume mesh"};
+    return kWords[part.index()];
+}
+
 std::string content_hash(const ScenePart& part) {
     const Content content = content_of(part);
     ByteWriter head;

@@ -26,6 +26,9 @@ using ScenePart =
 /// Bytes of the part in memory, including the neighbour arrays of a topology.
 [[nodiscard]] std::size_t memory_bytes(const ScenePart& part);
 
+/// What the part holds: "triangles", "positions", "voxels" ...
+[[nodiscard]] std::string part_words(const ScenePart& part);
+
 /// SHA-256 of the part's content, 64 hexadecimal digits.
 [[nodiscard]] std::string content_hash(const ScenePart& part);
 

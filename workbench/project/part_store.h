@@ -30,7 +30,7 @@ public:
     /// \param base a stored part that may serve as its base
     BlobId store(const ScenePart& part, const std::optional<ScenePart>& base);
 
-    /// \throw InvalidInput if it is damaged or referenced only
+    /// \throw InvalidInput if it is damaged, not what its SHA-256 says, or referenced only
     [[nodiscard]] ScenePart load(BlobId id);
 
     /// The blob of a part in memory that was stored or loaded by this object.

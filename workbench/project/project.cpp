@@ -321,6 +321,14 @@ bool ProjectFile::has_entry(const std::string& hash) const {
     return vesselbench::has_entry(parts_->database, hash);
 }
 
+std::vector<ChainEntry> ProjectFile::record_entries() const {
+    return read_chain(parts_->database);
+}
+
+RecordCheck ProjectFile::check_record_rows() const {
+    return vesselbench::check_record_rows(parts_->database);
+}
+
 RecordCheck ProjectFile::check_record(const Progress& progress) const {
     return vesselbench::check_record(parts_->database, progress);
 }

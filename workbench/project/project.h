@@ -55,6 +55,7 @@ struct OutsideEntry {
 /// True if a file is a database, as projects are, whatever its name; false if it cannot be read.
 [[nodiscard]] bool is_project_file(const std::filesystem::path& path);
 
+struct ChainEntry;
 struct RecordCheck;
 
 /// A project file: SQLite in WAL mode, one transaction per change, one writer. Committed changes
@@ -101,6 +102,12 @@ public:
 
     /// True if an entry of the record has this hash.
     [[nodiscard]] bool has_entry(const std::string& hash) const;
+
+    /// The record's entries, in order, unverified.
+    [[nodiscard]] std::vector<ChainEntry> record_entries() const;
+
+    /// As check_record_rows(): without the content of data.
+    [[nodiscard]] RecordCheck check_record_rows() const;
 
     /// Verifies the record and everything stored against it; see record_check.h.
     [[nodiscard]] RecordCheck check_record(const Progress& progress = {}) const;
@@ -159,7 +166,7 @@ public:
     /// Names of the parts in which a scene differs from the stored one, bit for bit; empty: none.
     [[nodiscard]] std::vector<std::string> differences(ResultId id, const Scene& scene) const;
 
-    /// Names of the stored parts of a result whose content does not match their checksum.
+    /// What is wrong with stored parts of a result: damaged, or not what their checksum says.
     [[nodiscard]] std::vector<std::string> damages(ResultId id,
                                                    const Progress& progress = {}) const;
 

@@ -19,8 +19,13 @@ struct RecordCheck {
 };
 
 /// Verifies that every entry follows from the one before it, that the last one is the one that was
-/// entered last, that the stored rows are exactly those that the entries bind, and that every blob
-/// has the content of its SHA-256. Writes nothing.
+/// entered last, and that the stored rows are exactly those that the entries bind. The content of
+/// data, which PartStore verifies when it reads them, is not read. \throw IoError
+[[nodiscard]] RecordCheck check_record_rows(const Database& database);
+
+/// The same, and everything else: verifies that every entry follows from the one before it, that
+/// the last one is the one that was entered last, that the stored rows are exactly those that the
+/// entries bind, and that every blob has the content of its SHA-256. Writes nothing.
 /// \throw Cancelled, IoError
 [[nodiscard]] RecordCheck check_record(const Database& database, const Progress& progress = {});
 

@@ -4,15 +4,13 @@
 #include <map>
 #include <utility>
 
+#include "geometry/kernel/errors.h"
 #include "workbench/project/content_hash.h"
 #include "workbench/project/serialization.h"
 
 namespace vesselbench {
 
 namespace {
-
-constexpr const char* kPartNames[] = {"triangles", "positions", "patch labels",
-                                      "attribute", "voxels",    "volume mesh"};
 
 /// For each new part of a scene, in order, the part it replaced.
 std::vector<std::optional<ScenePart>> bases_of(const std::vector<ScenePart>& parts,
@@ -86,7 +84,7 @@ std::vector<std::string> differences(const PartStore& store, const SceneRow& row
         if (i < row.blobs.size() && (store.known(part) == row.blobs[i] ||
                                      content_hash(part) == store.hash_of(row.blobs[i])))
             continue;
-        names.emplace_back(kPartNames[part.index()]);
+        names.push_back(part_words(part));
     }
     if (taken.parts.size() < row.blobs.size()) names.emplace_back("missing data");
     return names;
@@ -96,9 +94,11 @@ std::vector<std::string> damages(PartStore& store, const SceneRow& row, const Pr
     std::vector<std::string> names;
     for (const BlobId blob : row.blobs) {
         progress.check_cancelled();
-        const ScenePart part = store.load(blob);
-        if (content_hash(part) != store.hash_of(blob))
-            names.emplace_back(std::string(kPartNames[part.index()]) + " (stored checksum)");
+        try {
+            static_cast<void>(store.load(blob));
+        } catch (const InvalidInput& error) {
+            names.emplace_back(error.what());
+        }
     }
     return names;
 }

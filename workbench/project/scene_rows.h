@@ -32,7 +32,8 @@ struct SceneRow {
 [[nodiscard]] std::vector<std::string> differences(const PartStore& store, const SceneRow& row,
                                                    const Scene& scene);
 
-/// Names of the stored parts whose content does not match their checksum. \throw Cancelled
+/// What is wrong with stored parts whose content is damaged or does not match their checksum.
+/// \throw Cancelled
 [[nodiscard]] std::vector<std::string> damages(PartStore& store, const SceneRow& row,
                                                const Progress& progress);
 

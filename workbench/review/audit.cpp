@@ -80,7 +80,7 @@ void check_witnesses(const std::vector<Witness>& all, Audit& audit) {
 }
 
 void check_signatures(const std::vector<EnteredVerdicts>& entered, Audit& audit) {
-    for (const auto& [verdicts, signature] : entered) {
+    for (const auto& [verdicts, signature, key] : entered) {
         ++audit.signatures[signature.state];
         const std::string of = printable(verdicts.reviewer) + ", " + verdicts.written;
         if (signature.state == SignatureState::Verified)

@@ -8,6 +8,7 @@
 
 #include "geometry/kernel/errors.h"
 #include "workbench/review/entered_verdicts.h"
+#include "workbench/review/reviewer_name.h"
 
 namespace vesselbench {
 
@@ -43,8 +44,8 @@ JudgedEdits judged_in(const std::filesystem::path& path) {
     for (const EnteredVerdicts& entered : entered_verdicts(project))
         for (const EditVerdict& verdict : entered.verdicts.edits)
             if (verdict.verdict != Verdict::None)
-                add(edits, {id, verdict.edit, verdict.hash}, entered.verdicts.reviewer,
-                    {verdict.time, verdict.verdict});
+                add(edits, {id, verdict.edit, verdict.hash},
+                    compared_name(entered.verdicts.reviewer), {verdict.time, verdict.verdict});
     std::set<EditRef> refs;
     for (const auto& [key, edit] : edits) refs.insert(std::get<EditRef>(key));
     const auto records = project.edits({refs.begin(), refs.end()});

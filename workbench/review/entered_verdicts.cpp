@@ -1,5 +1,7 @@
 #include "workbench/review/entered_verdicts.h"
 
+#include "workbench/review/signing_key.h"
+
 namespace vesselbench {
 
 std::vector<EnteredVerdicts> entered_verdicts(const ProjectFile& project,
@@ -8,7 +10,7 @@ std::vector<EnteredVerdicts> entered_verdicts(const ProjectFile& project,
     std::vector<EnteredVerdicts> entered;
     for (const StoredVerdicts& stored : project.verdicts())
         entered.push_back({verdicts_from_text(stored.text, "the stored verdicts"),
-                           signature_of(stored, signers, progress)});
+                           signature_of(stored, signers, progress), signing_key(stored.signature)});
     return entered;
 }
 
@@ -16,7 +18,7 @@ std::vector<EnteredVerdicts> signed_or_rejecting(std::vector<EnteredVerdicts> en
     const auto keep_rejection = [](Verdict& verdict) {
         if (verdict != Verdict::Reject) verdict = Verdict::None;
     };
-    for (auto& [verdicts, signature] : entered) {
+    for (auto& [verdicts, signature, key] : entered) {
         if (signature.state == SignatureState::Verified) continue;
         for (EditVerdict& verdict : verdicts.edits) keep_rejection(verdict.verdict);
         keep_rejection(verdicts.overall);

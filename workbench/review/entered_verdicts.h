@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "workbench/project/project.h"
@@ -13,6 +14,7 @@ namespace vesselbench {
 struct EnteredVerdicts {
     VerdictFile verdicts;
     Signature signature;
+    std::string key;  ///< signing_key() of the signature; empty: not signed
 };
 
 /// What was entered into a project, in that order.

@@ -12,6 +12,7 @@
 #include "geometry/kernel/wording.h"
 #include "workbench/project/content_hash.h"
 #include "workbench/project/stored_text.h"
+#include "workbench/review/reviewer_identity.h"
 
 namespace vesselbench {
 
@@ -21,19 +22,49 @@ bool decides(Verdict verdict) {
     return verdict == Verdict::Accept || verdict == Verdict::Reject;
 }
 
-/// By reviewer: the newest, of equal times the one entered last.
-using ByReviewer = std::map<std::string, GivenVerdict>;
+/// An entered file and whose it is.
+struct GivenFile {
+    const EnteredVerdicts* entered;
+    ReviewerIdentity by;
+};
 
-void keep_newest(ByReviewer& verdicts, GivenVerdict verdict) {
-    const auto [found, is_new] = verdicts.try_emplace(verdict.reviewer, verdict);
-    if (!is_new && found->second.time <= verdict.time) found->second = std::move(verdict);
+std::vector<GivenFile> with_givers(const std::vector<EnteredVerdicts>& files) {
+    const std::vector<ReviewerIdentity> identities = identities_of(files);
+    std::vector<GivenFile> given;
+    for (std::size_t i = 0; i < files.size(); ++i) given.push_back({&files[i], identities[i]});
+    return given;
 }
 
-std::vector<GivenVerdict> list_of(const ByReviewer& verdicts) {
-    std::vector<GivenVerdict> list;
-    for (const auto& [reviewer, verdict] : verdicts) list.push_back(verdict);
-    return list;
-}
+/// Verdicts by who gave them.
+class ByGiver {
+public:
+    /// Of each giver the one entered last. Nobody takes a signed rejection back without signing.
+    void enter(const GivenFile& from, GivenVerdict verdict) {
+        verdict.reviewer = from.entered->verdicts.reviewer;
+        verdict.role = from.entered->verdicts.role;
+        verdict.signature = from.entered->signature;
+        verdict.person = from.by.person;
+        Last& last = last_[from.by.giver];
+        if (last.is_signed && !from.by.is_signed && last.verdict.verdict == Verdict::Reject) return;
+        last = {std::move(verdict), from.by.is_signed};
+    }
+
+    /// By the reviewers' names.
+    [[nodiscard]] std::vector<GivenVerdict> list() const {
+        std::vector<GivenVerdict> list;
+        for (const auto& [giver, last] : last_) list.push_back(last.verdict);
+        std::ranges::stable_sort(list, {}, &GivenVerdict::reviewer);
+        return list;
+    }
+
+private:
+    struct Last {
+        GivenVerdict verdict;
+        bool is_signed = false;
+    };
+
+    std::map<std::string, Last> last_;
+};
 
 ReviewStatus status_of(const std::vector<GivenVerdict>& verdicts) {
     bool accepted = false, rejected = false, outdated = false;
@@ -56,32 +87,33 @@ bool saw_all(const VerdictFile& file, const std::vector<ReviewedEdit>& edits) {
                                [&](const ReviewedEdit& edit) { return seen.contains(edit.hash); });
 }
 
-void add_verdicts(const std::vector<EnteredVerdicts>& files, ReviewedEdit& edit) {
-    ByReviewer newest;
-    for (const auto& [file, signature] : files)
-        for (const EditVerdict& verdict : file.edits)
+void add_verdicts(const std::vector<GivenFile>& files, ReviewedEdit& edit) {
+    ByGiver last;
+    for (const GivenFile& file : files)
+        for (const EditVerdict& verdict : file.entered->verdicts.edits)
             if (verdict.edit.id == edit.edit.id && verdict.verdict != Verdict::None)
-                keep_newest(newest, {.reviewer = file.reviewer,
-                                     .role = file.role,
-                                     .time = verdict.time,
-                                     .verdict = verdict.verdict,
-                                     .comment = verdict.comment,
-                                     .revision = verdict.edit.revision,
-                                     .outdated = edit.pending || verdict.hash != edit.hash,
-                                     .signature = signature});
-    edit.verdicts = list_of(newest);
+                last.enter(file, {.time = verdict.time,
+                                  .verdict = verdict.verdict,
+                                  .comment = verdict.comment,
+                                  .revision = verdict.edit.revision,
+                                  .outdated = edit.pending || verdict.hash != edit.hash});
+    edit.verdicts = last.list();
     edit.status = status_of(edit.verdicts);
 }
 
-void add_marks(const std::vector<EnteredVerdicts>& files, ReviewedEdit& edit) {
-    std::map<std::string, const EditVerdict*> newest;
-    for (const auto& [file, signature] : files)
-        for (const EditVerdict& verdict : file.edits) {
-            if (verdict.edit.id != edit.edit.id || says_nothing(verdict)) continue;
-            const EditVerdict*& found = newest[file.reviewer];
-            if (found == nullptr || found->time <= verdict.time) found = &verdict;
-        }
-    for (const auto& [reviewer, verdict] : newest) {
+void add_marks(const std::vector<GivenFile>& files, ReviewedEdit& edit) {
+    struct Marks {
+        std::string reviewer;
+        const EditVerdict* verdict;
+    };
+
+    std::map<std::string, Marks> last;
+    for (const GivenFile& file : files)
+        for (const EditVerdict& verdict : file.entered->verdicts.edits)
+            if (verdict.edit.id == edit.edit.id && !says_nothing(verdict))
+                last[file.by.giver] = {file.entered->verdicts.reviewer, &verdict};
+    for (const auto& [giver, marks] : last) {
+        const auto& [reviewer, verdict] = marks;
         const bool outdated = edit.pending || verdict->hash != edit.hash;
         for (const Pin& pin : verdict->pins)
             edit.pins.push_back({.reviewer = reviewer, .pin = pin, .outdated = outdated});
@@ -115,12 +147,11 @@ std::string edit_words(const ReviewedEdit& edit) {
     return std::to_string(edit.edit.id) + " " + printable(edit.operation);
 }
 
-/// Who accepts an edit: by their keys where those are known, else by name.
+/// The persons who accept an edit.
 std::set<std::string> accepting(const ReviewedEdit& edit) {
     std::set<std::string> who;
     for (const auto& given : edit.verdicts)
-        if (!given.outdated && given.verdict == Verdict::Accept)
-            who.insert(given.signature.signer.empty() ? given.reviewer : given.signature.signer);
+        if (!given.outdated && given.verdict == Verdict::Accept) who.insert(given.person);
     return who;
 }
 
@@ -184,6 +215,7 @@ Review review_of(const Session& session, const std::string& variant) {
 Review review_of(const ProjectFile& project, const std::vector<LogEntry>& log,
                  const std::vector<EnteredVerdicts>& files) {
     Review review{.files = files.size()};
+    const std::vector<GivenFile> given = with_givers(files);
     for (const LogEntry& entry : log) {
         ReviewedEdit& edit =
             review.edits.emplace_back(ReviewedEdit{.edit = entry.edit.edit,
@@ -191,20 +223,17 @@ Review review_of(const ProjectFile& project, const std::vector<LogEntry>& log,
                                                    .operation = entry.edit.operation,
                                                    .hash = edit_hash(project, entry),
                                                    .pending = entry.status == EditStatus::Pending});
-        add_verdicts(files, edit);
-        add_marks(files, edit);
+        add_verdicts(given, edit);
+        add_marks(given, edit);
     }
-    ByReviewer overall;
-    for (const auto& [file, signature] : files)
-        if (file.overall != Verdict::None)
-            keep_newest(overall, {.reviewer = file.reviewer,
-                                  .role = file.role,
-                                  .time = file.written,
-                                  .verdict = file.overall,
-                                  .comment = file.overall_comment,
-                                  .outdated = !saw_all(file, review.edits),
-                                  .signature = signature});
-    review.overall = list_of(overall);
+    ByGiver overall;
+    for (const GivenFile& file : given)
+        if (const VerdictFile& said = file.entered->verdicts; said.overall != Verdict::None)
+            overall.enter(file, {.time = said.written,
+                                 .verdict = said.overall,
+                                 .comment = said.overall_comment,
+                                 .outdated = !saw_all(said, review.edits)});
+    review.overall = overall.list();
     return review;
 }
 

@@ -14,7 +14,8 @@ namespace vesselbench {
 /// decided by itself, and the digest of its result. A verdict holds for what has the same hash.
 [[nodiscard]] std::string edit_hash(const ProjectFile& project, const LogEntry& entry);
 
-/// The newest verdict of one reviewer on one edit.
+/// The verdict of one reviewer on one edit that was entered last; of one signer, unless what was
+/// entered after a signed rejection is not signed (reviewer_identity.h).
 struct GivenVerdict {
     std::string reviewer, role, time;
     Verdict verdict = Verdict::None;
@@ -22,6 +23,7 @@ struct GivenVerdict {
     int revision = 1;       ///< that was reviewed
     bool outdated = false;  ///< the edit, or its result, is another one now
     Signature signature;    ///< of the file that it came with
+    std::string person;     ///< ReviewerIdentity::person
 };
 
 enum class ReviewStatus : std::uint8_t {
@@ -90,8 +92,8 @@ struct Review {
 /// Kern, B. Roth", none of whom does; "open: 2 of 5 edits accepted".
 [[nodiscard]] std::string review_words(const Review& review);
 
-/// What is missing until `reviewers`, of whom one key signs for one only, have accepted every edit
-/// and nobody has rejected one, or the whole: "2 smooth (open)". Empty: nothing.
+/// What is missing until `reviewers`, different persons, have accepted every edit and nobody has
+/// rejected one, or the whole: "2 smooth (open)". Empty: nothing.
 [[nodiscard]] std::vector<std::string> missing_acceptance(const Review& review,
                                                           std::size_t reviewers);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 #include <unistd.h>
@@ -62,12 +63,17 @@ public:
         return run({"verify", "-I", principal, "-n", kNamespace}, text_);
     }
 
+    /// Whether the signature is one of these bytes, by any key.
+    [[nodiscard]] ProgramResult check_bytes() const {
+        return run({"check-novalidate", "-n", kNamespace}, text_);
+    }
+
     /// The program's first complaint, without folders.
     [[nodiscard]] std::string problem(const ProgramResult& result) const {
         const std::vector<std::string> lines = lines_of(result.err);
         std::string line = lines.empty() ? "ssh-keygen does not say why" : lines.front();
         const std::string path = signers_.string();
-        if (const std::size_t at = line.find(path); at != std::string::npos)
+        if (const std::size_t at = line.find(path); !path.empty() && at != std::string::npos)
             line.replace(at, path.size(), bare_name(signers_));
         return shortened(printable(line));
     }
@@ -80,8 +86,9 @@ private:
         // ssh-keygen closes what it is given beside its input, output and errors.
         const std::string file =
             "/proc/" + std::to_string(getpid()) + "/fd/" + std::to_string(signature_.number());
-        command.insert(command.end(),
-                       {"-f", signers_.string(), "-s", file, "-Overify-time=" + time_});
+        command.insert(command.end(), {"-s", file});
+        if (!signers_.empty())
+            command.insert(command.end(), {"-f", signers_.string(), "-Overify-time=" + time_});
         try {
             return run_to_end(command, input, kLimit, progress_);
         } catch (const IoError& error) {
@@ -154,7 +161,17 @@ Signature signature_of(const StoredVerdicts& verdicts, const std::filesystem::pa
             problem = verifier.problem(verified);
     }
     if (signers_of_it.empty()) return {.state = SignatureState::Invalid, .problem = problem};
-    return {.state = SignatureState::Verified, .signer = joined(signers_of_it)};
+    return {.state = SignatureState::Verified,
+            .signer = joined(signers_of_it),
+            .principals = std::move(signers_of_it)};
+}
+
+Signature checked_signature(const StoredVerdicts& verdicts, const Progress& progress) {
+    if (verdicts.signature.empty()) return {};
+    const Verifier verifier(verdicts, {}, progress);
+    const ProgramResult checked = verifier.check_bytes();
+    if (checked.exit_code == 0) return {.state = SignatureState::Unverified};
+    return {.state = SignatureState::Invalid, .problem = verifier.problem(checked)};
 }
 
 }  // namespace vesselbench

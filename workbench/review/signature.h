@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "geometry/kernel/progress.h"
 #include "workbench/project/stored_verdicts.h"
@@ -19,8 +20,9 @@ enum class SignatureState : std::uint8_t {
 /// What is known of who signed verdicts.
 struct Signature {
     SignatureState state = SignatureState::None;
-    std::string signer;   ///< verified: the principals of the key, as the allowed signers name them
-    std::string problem;  ///< invalid: why
+    std::string signer;  ///< verified: the principals of the key, as the allowed signers name them
+    std::vector<std::string> principals;  ///< verified: each of them
+    std::string problem;                  ///< invalid: why
 };
 
 /// "not signed"; "signed, not verified"; "signed by kern@clinic.example"; "its signature does not
@@ -41,5 +43,10 @@ struct Signature {
 [[nodiscard]] Signature signature_of(const StoredVerdicts& verdicts,
                                      const std::filesystem::path& signers,
                                      const Progress& progress = {});
+
+/// What is known of a signature without allowed signers: Unverified if it is one of these bytes,
+/// for verdicts, by whatever key; else Invalid. \throw as signature_of()
+[[nodiscard]] Signature checked_signature(const StoredVerdicts& verdicts,
+                                          const Progress& progress = {});
 
 }  // namespace vesselbench

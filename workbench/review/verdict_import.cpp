@@ -16,31 +16,12 @@
 #include "workbench/project/content_hash.h"
 #include "workbench/project/project.h"
 #include "workbench/project/utc_time.h"
+#include "workbench/review/import_checks.h"
 #include "workbench/review/review.h"
 
 namespace vesselbench {
 
 namespace {
-
-/// \throw InvalidInput unless the verdicts are of this project's record
-void check_origin(const VerdictFile& file, const std::string& name, const Session& session) {
-    const ProjectFile& project = session.project();
-    if (file.project != project.id())
-        throw InvalidInput(name + ".project.id is another project's, " +
-                           shortened(printable(file.project_name)) + ": import it there");
-    const History& history = *session.snapshot()->history;
-    for (std::size_t i = 0; i < file.edits.size(); ++i)
-        if (!history.edits().contains(file.edits[i].edit))
-            throw InvalidInput(
-                name + ".edits[" + std::to_string(i) + "].edit: this project has no revision " +
-                std::to_string(file.edits[i].edit.revision) + " of edit " +
-                std::to_string(file.edits[i].edit.id) + "; the verdicts are of another copy of it");
-    if (!project.has_entry(file.chain_head))
-        throw InvalidInput(name +
-                           ".chain_head is no entry of this project's record: the verdicts are of "
-                           "another copy of it, or its record was rewritten ('audit --against' "
-                           "says more)");
-}
 
 /// \param signature empty: none
 std::string facts_of(const VerdictFile& file, const std::string& signature,
@@ -90,7 +71,7 @@ std::size_t outdated_in(const VerdictFile& file, const Session& session) {
 ImportedVerdicts enter(Session& session, StoredVerdicts given, const Signature& signature,
                        const std::string& name) {
     ImportedVerdicts done{.verdicts = verdicts_from_text(given.text, name), .signature = signature};
-    check_origin(done.verdicts, name, session);
+    check_before_entering(done.verdicts, name, session);
     const std::string facts = facts_of(done.verdicts, given.signature, signature);
     if (given.signature.empty()) given.text = text_of(done.verdicts);
     done.known = given.signature.empty() && has_verdicts(session.project(), given.text);
@@ -139,7 +120,8 @@ ImportedVerdicts import_verdicts(Session& session, const std::filesystem::path& 
                                  const std::filesystem::path& signers, const Progress& progress) {
     const std::string name = bare_name(file);
     StoredVerdicts given{verdict_text_in(file), signature_beside(file)};
-    const Signature signature = signature_of(given, signers, progress);
+    const Signature signature = signers.empty() ? checked_signature(given, progress)
+                                                : signature_of(given, signers, progress);
     check_signature(signature, !signers.empty(), name);
     return enter(session, std::move(given), signature, name);
 }

@@ -26,9 +26,9 @@ struct ImportedVerdicts {
 
 /// Enters a reviewer's verdicts into the project, once, with the signature beside the file if there
 /// is one. Signed ones are entered beside the same verdicts without a signature.
-/// \param signers whose signature is required, see signature_of(); empty: none is, and none is
-/// verified
-/// \throw InvalidInput that names the file and the field, also if they are another project's, or if
+/// \param signers whose signature is required, see signature_of(); empty: none is, and one beside
+/// the file may be by any key
+/// \throw InvalidInput that names the file and the field, also by check_before_entering(), or if
 /// the signature does not verify or is missing; IoError; as signature_of()
 ImportedVerdicts import_verdicts(Session& session, const std::filesystem::path& file,
                                  const std::filesystem::path& signers = {},

@@ -9,9 +9,9 @@
 
 namespace vesselbench {
 
-void record_export(Session& session, const std::filesystem::path& file,
+bool record_export(Session& session, const std::filesystem::path& file,
                    const std::string& variant) {
-    if (!session.read_only_reason().empty()) return;
+    if (!session.read_only_reason().empty()) return false;
     nlohmann::ordered_json facts = {{"variant", variant},
                                     {"state", session.snapshot()->history->current()},
                                     {"sha256", hash_of_file(file)}};
@@ -20,6 +20,7 @@ void record_export(Session& session, const std::filesystem::path& file,
     const auto whole = std::filesystem::absolute(file).lexically_normal();
     const auto named = whole.has_filename() ? whole : whole.parent_path();
     session.record({.kind = "export", .subject = bare_name(named), .facts = text_from_json(facts)});
+    return true;
 }
 
 }  // namespace vesselbench

@@ -8,8 +8,9 @@
 namespace vesselbench {
 
 /// Enters into the project's record that a variant's model was written to a file or folder, with
-/// its SHA-256. A session that only reads enters nothing.
+/// its SHA-256.
+/// \return false if the session only reads, and enters nothing
 /// \throw IoError if the file or the project cannot be read or written
-void record_export(Session& session, const std::filesystem::path& file, const std::string& variant);
+bool record_export(Session& session, const std::filesystem::path& file, const std::string& variant);
 
 }  // namespace vesselbench

@@ -433,7 +433,7 @@ void Document::export_to(const std::filesystem::path& file,
                            Session& session, const Progress& progress) {
         require_no_source(session, file);
         const Review review = review_of(session, variant);
-        require_kept_acceptance(project, variant, review);
+        require_acceptance(session, project, variant, 0, review);
         const Scene scene = session.scene(variant, progress.part(0.0, 0.7));
         PendingFiles files;
         const FlowSettings kept(stored_text(project, StoredText::Flow));
@@ -447,12 +447,14 @@ void Document::export_to(const std::filesystem::path& file,
         files.commit();
         if (given && given->stored() != kept.stored() && session.read_only_reason().empty())
             store_text(project, StoredText::Flow, given->stored());
-        record_export(session, file, variant);
-        return Nothing{};
+        return record_export(session, file, variant);
     };
     const std::string done = "Exported " + file.string() + unit;
-    watch(runner_->submit(write), output_label("Export"),
-          [this, done](const Nothing&) { tell(make_message(MessageKind::Success, done)); });
+    watch(runner_->submit(write), output_label("Export"), [this, done](bool recorded) {
+        tell(recorded ? make_message(MessageKind::Success, done)
+                      : make_message(MessageKind::Warning,
+                                     done + "; not recorded: " + snapshot_->read_only_reason));
+    });
 }
 
 void Document::save_copy(const std::filesystem::path& project) {

@@ -10,10 +10,10 @@ namespace vesselbench {
 
 namespace {
 
-std::string why_not_accepted(const std::filesystem::path& project, const std::string& variant,
-                             const Review& review) {
+std::string why_not_accepted(const Session& session, const std::filesystem::path& project,
+                             const std::string& variant, const Review& review) {
     try {
-        require_kept_acceptance(project, variant, review);
+        require_acceptance(session, project, variant, 0, review);
         return "";
     } catch (const DiagnosedFailure& failure) {
         return failure.what();
@@ -28,7 +28,7 @@ ExportState export_state(const Session& session, const std::filesystem::path& pr
     const bool reviewed = review.files > 0;
     return {.review = reviewed ? review_words(review) : "",
             .unsettled = reviewed && status_of(review) != ReviewStatus::Accepted,
-            .refusal = why_not_accepted(project, variant, review),
+            .refusal = why_not_accepted(session, project, variant, review),
             .flow = FlowSettings(stored_text(project, StoredText::Flow)),
             .split = flow_in_vessel({}, session.log(variant)).split};
 }

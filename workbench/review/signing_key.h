@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+namespace vesselbench {
+
+/// The public key that an SSH signature names as its signer's, by the SHA-256 of its bytes
+/// (PROTOCOL.sshsig of OpenSSH): equal for two signatures by one key. Nothing is verified.
+/// \param signature armored; empty: none
+/// \return empty if it is no such signature
+[[nodiscard]] std::string signing_key(const std::string& signature);
+
+}  // namespace vesselbench
