@@ -42,14 +42,15 @@ std::size_t character_size(std::string_view text) {
     return size;
 }
 
-/// C0 and C1 controls, DEL, and what reorders the line (Unicode's bidirectional controls).
+/// C0 and C1 controls, DEL, and what ends or reorders the line (Unicode's separators of lines and
+/// paragraphs, and its bidirectional controls).
 bool is_control(std::string_view character) {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(character[i]); };
     if (character.size() == 1)
         return (byte(0) < 0x20 && byte(0) != '\n' && byte(0) != '\t') || byte(0) == 0x7f;
     if (character.size() == 2) return byte(0) == 0xc2 && byte(1) < 0xa0;
     return character.size() == 3 && byte(0) == 0xe2 &&
-           ((byte(1) == 0x80 && byte(2) >= 0xaa && byte(2) <= 0xae) ||
+           ((byte(1) == 0x80 && byte(2) >= 0xa8 && byte(2) <= 0xae) ||
             (byte(1) == 0x81 && byte(2) >= 0xa6 && byte(2) <= 0xa9));
 }
 

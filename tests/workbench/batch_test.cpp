@@ -161,6 +161,21 @@ SCENARIO("One batch at a time runs in a folder", "[workbench][batch]") {
     running.wait();
 }
 
+SCENARIO("A damaged file of a case, or a link to itself, ends no batch",
+         "[workbench][batch][hostile]") {
+    const Cohort cohort;
+    const Json first = printed(cohort.run("out", {"--json"}));
+    write_text(cohort.folder + "/out/cases/ball/batch.json", "{\"key\": [1,");
+    const Json again = printed(cohort.run("out", {"--json"}));
+    CHECK(again["cases"] == first["cases"]);
+    CHECK(names_in(cohort.folder + "/out/earlier") == Names{"ball.1"});
+    fs::create_symlink("loop.stl", cohort.folder + "/loop.stl");
+    const ProgramRun folder =
+        run_program(test::program_path(), {"batch", cohort.folder, "--for", "planning", "--units",
+                                           "mm", "--out", cohort.folder + "/all"});
+    CHECK_THAT(folder.err, Contains("left out") && Contains("loop.stl"));
+}
+
 SCENARIO("A batch leaves folders alone that are not its own", "[workbench][batch]") {
     const Cohort cohort;
     fs::create_directories(cohort.folder + "/out/cases/ball");

@@ -181,6 +181,7 @@ SCENARIO("--set changes a recipe's arguments", "[workbench][recipe]") {
     wrong("smooth.iterations", "operation.parameter=value");
     wrong("smooth.iteration=7", "did you mean 'iterations'");
     wrong("fill-hole.continuity=1", "the recipe has no fill-hole");
+    wrong("load-surface.file=other.stl", "the input itself is given");
 }
 
 SCENARIO("The built-in recipe fits every use", "[workbench][recipe]") {

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "geometry/kernel/bare_name.h"
+#include "geometry/kernel/printable.h"
 #include "geometry/kernel/wording.h"
 #include "workbench/batch/case_report.h"
 #include "workbench/batch/run_case.h"
@@ -109,9 +110,10 @@ std::vector<FailureGroup> failure_groups(const std::vector<TableRow>& rows) {
     return groups;
 }
 
-/// Spreadsheets run what begins like a formula.
-std::string text_field(std::string text) {
-    constexpr std::string_view kFormula = "=+-@\t\r";
+/// Spreadsheets run what begins like a formula, and show what reorders a line.
+std::string text_field(const std::string& given) {
+    constexpr std::string_view kFormula = "=+-@\t";
+    std::string text = printable(given);
     if (!text.empty() && kFormula.find(text.front()) != std::string_view::npos) text.insert(0, "'");
     return csv_quoted(text);
 }

@@ -59,7 +59,7 @@ fs::path begin_case(const BatchFolders& folders, const std::string& name) {
     fs::path earlier;
     const FileLock::Attempt writing = project_lock(folder);
     const bool is_ours = fs::exists(folder / kRunning);
-    if (read_record(folder) || (is_ours && !read_report(folder).is_null()))
+    if (has_record(folder) || (is_ours && !read_report(folder).is_null()))
         earlier = moved_away(folders, name);  // a person may have finished what was killed
     else if (is_ours)
         remove_unfinished(folder);

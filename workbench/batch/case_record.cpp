@@ -91,6 +91,11 @@ std::optional<CaseRecord> read_record(const fs::path& folder) {
     }
 }
 
+bool has_record(const fs::path& folder) {
+    std::error_code error;
+    return fs::exists(folder / kRecord, error);
+}
+
 void write_record(const fs::path& folder, const CaseRecord& record) {
     const Json json = {{"key", record.key},
                        {"failure", failure_json(record.failure)},

@@ -29,6 +29,9 @@ struct CaseRecord {
     std::size_t input_bytes = 0;
 };
 
+/// True if a batch has left its file in a case's folder, also if that is damaged.
+[[nodiscard]] bool has_record(const std::filesystem::path& folder);
+
 /// None: the case is not finished, or its record cannot be read.
 [[nodiscard]] std::optional<CaseRecord> read_record(const std::filesystem::path& folder);
 

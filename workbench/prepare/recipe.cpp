@@ -36,6 +36,16 @@ void read_entries(const Json& list, const RecipeUse& use, Take take) {
     }
 }
 
+/// What is prepared is what is given as the input: its name and its bytes stand for the results.
+void refuse_input_file(const Operation& operation, const std::string& parameter) {
+    const bool is_file = std::ranges::any_of(operation.parameters, [&](const Parameter& p) {
+        return p.name == parameter && p.type == ParameterType::File;
+    });
+    if (operation.recipe.loads && operation.recipe.loads != InputKind::Neighbour && is_file)
+        throw UsageError("--set " + operation.name + "." + parameter +
+                         ": the input itself is given, not set");
+}
+
 }  // namespace
 
 Recipe recipe_from_json(const Json& list, const RecipeUse& use) {
@@ -78,6 +88,7 @@ void set_arguments(Recipe& recipe, std::span<const std::string> texts) {
         if (dot == std::string::npos || equals == std::string::npos || dot > equals)
             throw UsageError("--set '" + text + "' is not of the form operation.parameter=value");
         const Operation& operation = find_operation(text.substr(0, dot));
+        refuse_input_file(operation, text.substr(dot + 1, equals - dot - 1));
         const std::vector<std::string> argument = {text.substr(dot + 1)};
         const GivenArguments given = arguments_from_texts(operation, argument);
         bool found = false;
