@@ -28,7 +28,7 @@ std::vector<fs::path> entries_of(const fs::path& folder) {
 }
 
 /// Of what cannot be told, such as a link to itself: none.
-fs::file_type type_of(const fs::path& path) {
+fs::file_type file_type_of(const fs::path& path) {
     std::error_code error;
     return fs::status(path, error).type();
 }
@@ -40,14 +40,15 @@ bool is_slice(const fs::path& file) {
 
 bool is_input_folder(const fs::path& folder) {
     const std::vector<fs::path> entries = entries_of(folder);
-    return type_of(folder / kCaseFile) == fs::file_type::regular || std::ranges::any_of(entries, [](const fs::path& path) {
-               return type_of(path) == fs::file_type::regular && is_slice(path);
+    return file_type_of(folder / kCaseFile) == fs::file_type::regular ||
+           std::ranges::any_of(entries, [](const fs::path& path) {
+               return file_type_of(path) == fs::file_type::regular && is_slice(path);
            });
 }
 
 bool is_input(const fs::path& path) {
-    if (type_of(path) == fs::file_type::directory) return is_input_folder(path);
-    return type_of(path) == fs::file_type::regular &&
+    if (file_type_of(path) == fs::file_type::directory) return is_input_folder(path);
+    return file_type_of(path) == fs::file_type::regular &&
            (row_that_reads(surface_formats(), path.string()) != nullptr ||
             row_that_reads(image_formats(), path.string()) != nullptr);
 }

@@ -20,7 +20,7 @@ namespace {
 /// Clocks of two machines differ by less.
 constexpr std::chrono::minutes kAhead{10};
 
-std::string quoted(const std::string& text) {
+std::string shown_in_quotes(const std::string& text) {
     return "'" + shortened(printable(text)) + "'";
 }
 
@@ -44,10 +44,10 @@ void check_origin(const VerdictFile& file, const std::string& name, const Sessio
 }
 
 void check_time(const std::string& time, const std::string& place) {
-    if (!is_utc_time(time)) throw InvalidInput(place + " is no time: " + quoted(time));
+    if (!is_utc_time(time)) throw InvalidInput(place + " is no time: " + shown_in_quotes(time));
     if (time > utc_text(std::chrono::system_clock::now() + kAhead))
-        throw InvalidInput(place + " is in the future: " + quoted(time) + "; it is " + utc_now() +
-                           " here");
+        throw InvalidInput(place + " is in the future: " + shown_in_quotes(time) + "; it is " +
+                           utc_now() + " here");
 }
 
 void check_times(const VerdictFile& file, const std::string& name) {
@@ -59,7 +59,7 @@ void check_times(const VerdictFile& file, const std::string& name) {
 /// \throw InvalidInput if an eye would take the name for that of another reviewer
 void check_reviewer_name(const VerdictFile& file, const std::string& name,
                          const ProjectFile& project) {
-    const std::string place = name + ".reviewer.name " + quoted(file.reviewer);
+    const std::string place = name + ".reviewer.name " + shown_in_quotes(file.reviewer);
     if (has_hidden_characters(file.reviewer))
         throw InvalidInput(place + " holds characters that show nothing: give it without them");
     const std::string outline = name_outline(file.reviewer),
@@ -69,11 +69,12 @@ void check_reviewer_name(const VerdictFile& file, const std::string& name,
         if (const std::string& other = entered.verdicts.reviewer;
             name_outline(other) == outline && compared_name(other) != compared)
             throw InvalidInput(place + " is nearly that of a reviewer of this project, " +
-                               quoted(other) + ": give the same name, or one that nobody mistakes");
+                               shown_in_quotes(other) +
+                               ": give the same name, or one that nobody mistakes");
 }
 
 /// The edits that were in the project when a page was made with this head.
-std::set<EditId> edits_until(const std::string& head, const std::vector<ChainEntry>& entries) {
+std::set<EditId> edits_known_at(const std::string& head, const std::vector<ChainEntry>& entries) {
     std::set<EditId> edits;
     for (const ChainEntry& entry : entries) {
         if (entry.kind == "edit")
@@ -95,9 +96,10 @@ bool lists_all(const VerdictFile& file, const std::vector<LogEntry>& log,
 }
 
 /// A verdict on the whole that lists some edits only would be outdated from the start.
-void check_whole(const VerdictFile& file, const std::string& name, const Session& session) {
+void check_seen_edits(const VerdictFile& file, const std::string& name, const Session& session) {
     if (file.overall != Verdict::Reject) return;
-    const std::set<EditId> known = edits_until(file.chain_head, session.project().record_entries());
+    const std::set<EditId> known =
+        edits_known_at(file.chain_head, session.project().record_entries());
     std::vector<std::string> variants = session.snapshot()->history->variants();
     if (variants.empty()) variants.emplace_back();
     if (std::ranges::none_of(variants, [&](const std::string& variant) {
@@ -115,7 +117,7 @@ void check_before_entering(const VerdictFile& file, const std::string& name,
     check_origin(file, name, session);
     check_times(file, name);
     check_reviewer_name(file, name, session.project());
-    check_whole(file, name, session);
+    check_seen_edits(file, name, session);
 }
 
 }  // namespace vesselbench

@@ -9,7 +9,7 @@ namespace vesselbench {
 namespace {
 
 /// Texts that stand for one and the same: a forest in which each is its own root at first.
-class Equals {
+class EqualTexts {
 public:
     /// The text that stands for all that were joined with this one.
     [[nodiscard]] std::string root(const std::string& text) const {
@@ -44,7 +44,7 @@ std::vector<std::string> signer_ids(const EnteredVerdicts& file) {
 }  // namespace
 
 std::vector<ReviewerIdentity> identities_of(const std::vector<EnteredVerdicts>& files) {
-    Equals signers, persons;
+    EqualTexts signers, persons;
     std::map<std::string, std::string> bound;  // names to who first signed under them
     for (const EnteredVerdicts& file : files) {
         const std::vector<std::string> ids = signer_ids(file);

@@ -19,7 +19,7 @@ struct Release {
 constexpr int kCompared =
     UTF8PROC_STABLE | UTF8PROC_COMPAT | UTF8PROC_CASEFOLD | UTF8PROC_IGNORE | UTF8PROC_LUMP;
 
-std::string mapped(std::string_view name, int options) {
+std::string mapped_text(std::string_view name, int options) {
     utf8proc_uint8_t* made = nullptr;
     const auto size = utf8proc_map(reinterpret_cast<const utf8proc_uint8_t*>(name.data()),
                                    static_cast<utf8proc_ssize_t>(name.size()), &made,
@@ -43,7 +43,7 @@ void each_character(std::string_view text, Visit visit) {
     }
 }
 
-void append(std::string& text, utf8proc_int32_t code) {
+void append_character(std::string& text, utf8proc_int32_t code) {
     utf8proc_uint8_t bytes[4];
     const auto size = utf8proc_encode_char(code, bytes);
     text.append(reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(size));
@@ -68,7 +68,7 @@ const std::map<utf8proc_int32_t, char> kLookalikes = {
 
 std::string compared_name(std::string_view name) {
     std::string made;
-    for (const char c : mapped(name, kCompared | UTF8PROC_COMPOSE))
+    for (const char c : mapped_text(name, kCompared | UTF8PROC_COMPOSE))
         if (c != ' ' || (!made.empty() && made.back() != ' ')) made += c;
     if (!made.empty() && made.back() == ' ') made.pop_back();
     return made;
@@ -76,11 +76,11 @@ std::string compared_name(std::string_view name) {
 
 std::string name_outline(std::string_view name) {
     std::string made;
-    each_character(mapped(name, kCompared | UTF8PROC_DECOMPOSE | UTF8PROC_STRIPMARK),
+    each_character(mapped_text(name, kCompared | UTF8PROC_DECOMPOSE | UTF8PROC_STRIPMARK),
                    [&](utf8proc_int32_t code) {
                        if (!is_letter_or_digit(code)) return;
                        const auto like = kLookalikes.find(code);
-                       append(made, like == kLookalikes.end() ? code : like->second);
+                       append_character(made, like == kLookalikes.end() ? code : like->second);
                    });
     return made;
 }

@@ -33,7 +33,7 @@ std::string unarmored(const std::string& signature) {
 }
 
 /// A text after its length in four bytes, the first the highest; empty if it is cut off.
-std::string_view text_at(std::string_view bytes) {
+std::string_view sized_text_at(std::string_view bytes) {
     constexpr std::size_t kLength = 4;
     if (bytes.size() < kLength) return "";
     std::size_t length = 0;
@@ -48,7 +48,7 @@ std::string signing_key(const std::string& signature) {
     const std::string bytes = unarmored(signature);
     if (!bytes.starts_with(kMagic) || bytes.size() < kMagic.size() + kVersionBytes) return "";
     const std::string_view key =
-        text_at(std::string_view(bytes).substr(kMagic.size() + kVersionBytes));
+        sized_text_at(std::string_view(bytes).substr(kMagic.size() + kVersionBytes));
     return key.empty() ? "" : hash_of_text(key);
 }
 
