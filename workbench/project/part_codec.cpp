@@ -13,7 +13,9 @@ namespace vesselbench {
 namespace {
 
 constexpr std::uint16_t kMagic = 0x4256;  // "VB"
-constexpr std::uint8_t kVersion = 1;
+/// Volume meshes with layers have the second: earlier programs would read them without. All other
+/// parts keep their bytes.
+constexpr std::uint8_t kVersion = 1, kLayersVersion = 2;
 
 // Kinds of parts; their numbers are in the file.
 constexpr std::uint8_t kTopology = 0, kPositions = 1, kLabels = 2, kReals = 3, kVoxels = 4,
@@ -62,7 +64,7 @@ Bytes volume_mesh_bytes(const VolumeMesh& mesh) {
     writer.append(bytes_of(mesh.tetrahedra));
     writer.append(bytes_of(mesh.boundary));
     writer.append(bytes_of(mesh.boundary_patches));
-    if (mesh.prisms.empty() && mesh.boundary_sides.empty()) return writer.take();
+    if (mesh.prisms.empty()) return writer.take();
     // Follows where there are layers: meshes of tetrahedra alone keep their bytes.
     writer.put<std::uint64_t>(mesh.prisms.size());
     writer.put<std::uint64_t>(mesh.boundary_sides.size());
@@ -212,6 +214,8 @@ Header whole_header(const ScenePart& part, const Content& content) {
     header.kind = static_cast<std::uint8_t>(part.index());
     header.extra = content.extra;
     header.size = content.bytes.size();
+    const auto* mesh = std::get_if<kVolumeMesh>(&part);
+    if (mesh != nullptr && !(*mesh)->prisms.empty()) header.version = kLayersVersion;
     return header;
 }
 
@@ -230,9 +234,9 @@ Header read_header(ByteReader& reader) {
     const auto header = reader.get<Header>();
     if (header.magic != kMagic || header.kind > kVolumeMesh)
         throw InvalidInput("the stored data is damaged: it is not a part of a scene");
-    if (header.version > kVersion)
+    if (header.version > kLayersVersion)
         throw InvalidInput("the stored data has version " + std::to_string(header.version) +
-                           "; this program reads up to " + std::to_string(kVersion));
+                           "; this program reads up to " + std::to_string(kLayersVersion));
     return header;
 }
 
