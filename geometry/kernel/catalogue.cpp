@@ -725,12 +725,16 @@ constexpr CatalogueText kTexts[] = {
      "{layers#layer|layers} on this wall are {prisms:%.0f} prisms, too many of {wanted:%.0f} "
      "cells: "
      "fewer layers, more cells, or longer edges by {fix}"},
+    {"layers-beyond-lumen",
+     "layers of {wished:%.3g} mm have no room in the lumen, where {thickness:%.2g} mm is the most "
+     "on "
+     "half of the wall; ask for less, or use {fix}"},
     {"layers-not-filled",
      "the lumen inside the layers cannot be filled ({reason}); thinner layers may help, or use "
      "{fix}"},
     {"layers-invalid", "the mesh with layers is not valid ({reason}); use {fix}"},
     {"layers-limited",
-     "the wall's layers are thinner than half of {thickness:%.3g} mm on {percent:%.1f} % of the "
+     "the wall's layers are thinner than half of {wished:%.3g} mm on {percent:%.1f} % of the "
      "wall, the thinnest {thinnest:%.2g} mm at {place}: walls are close or curved there"},
     {"surface-not-fillable", "the surface cannot be filled with tetrahedra:{obstacles}"},
     {"surface-not-finite",

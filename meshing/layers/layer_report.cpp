@@ -21,9 +21,9 @@ std::vector<double> vertex_areas(const Surface& wall) {
     return areas;
 }
 
-// The thinnest columns that are farther apart than what was wished for there is wide.
+// The thinnest columns, each a vessel's radius or so away from the others.
 std::vector<ThinPlace> thin_places(const WallLayers& layers, const std::vector<double>& shares) {
-    constexpr double kApart = 5.0;  // in thicknesses wished: a vessel's radius as a rule
+    constexpr double kApart = 5.0;  // in thicknesses wished, which are a fifth of it as a rule
     std::vector<VertexId> thin;
     for (VertexId v = 0; v < shares.size(); ++v)
         if (shares[v] < kHalf) thin.push_back(v);
@@ -48,15 +48,17 @@ LayerReport layer_report(const WallLayers& layers) {
     report.prisms = layers.wall.wall.triangle_count() * static_cast<std::size_t>(report.layers);
     const std::vector<double> areas = vertex_areas(layers.wall.wall);
     const double whole = std::accumulate(areas.begin(), areas.end(), 0.0);
-    std::vector<double> thicknesses(areas.size()), shares(areas.size());
+    std::vector<double> thicknesses(areas.size()), wished(areas.size()), shares(areas.size());
     for (std::size_t v = 0; v < areas.size(); ++v) {
         const double cosine = -layers.directions[v].dot(layers.wall.normals[v]);
         thicknesses[v] = layers.lengths[v] * cosine;
+        wished[v] = layers.wished[v] * cosine;
         shares[v] = layers.lengths[v] / layers.wished[v];
-        if (layers.lengths[v] > 0.0) report.covered += areas[v] / whole;
+        if (layers.lengths[v] <= 0.0) report.covered -= areas[v] / whole;
         if (shares[v] < kReached) report.limited += areas[v] / whole;
         if (shares[v] < kHalf) report.half += areas[v] / whole;
     }
+    report.wished = weighted_percentile(wished, areas, 0.5);
     report.thickness = weighted_percentile(thicknesses, areas, 0.5);
     report.thinnest = std::ranges::min(thicknesses);
     report.first = report.thickness * layers.levels[1];

@@ -33,6 +33,17 @@ TetrahedralizeParameters inside(TetrahedralizeParameters parameters, std::size_t
     return parameters;
 }
 
+// On more of the wall than this, layers of less than half their thickness are not those asked for.
+constexpr double kMostHalf = 0.5;
+
+void require_room(const LayerReport& layers) {
+    if (layers.half <= kMostHalf) return;
+    throw DiagnosedUsage({.code = "layers-beyond-lumen",
+                          .place = layers.places.front().place,
+                          .figures = {{"wished", layers.wished}, {"thickness", layers.thickness}},
+                          .remedies = without_layers()});
+}
+
 TetrahedralizeResult filled_inside(const WallLayers& layers,
                                    const TetrahedralizeParameters& parameters,
                                    const Progress& progress) {
@@ -49,8 +60,8 @@ TetrahedralizeResult filled_inside(const WallLayers& layers,
 // Puts prisms between a wall and the mesh inside.
 class Joining {
 public:
-    Joining(const Surface& surface, const WallLayers& layers, VolumeMesh inside)
-        : layers_(layers), mesh_(std::move(inside)), numbers_(numbers_inside(surface)) {
+    Joining(const WallLayers& layers, VolumeMesh inside)
+        : layers_(layers), mesh_(std::move(inside)), numbers_(numbers_inside()) {
         const std::size_t columns = layers_.wall.origins.size();
         first_ = static_cast<VertexId>(mesh_.points.size());
         mesh_.points.reserve(mesh_.points.size() + (layers_.levels.size() - 1) * columns);
@@ -68,16 +79,13 @@ public:
 
 private:
     // TetGen keeps a surface's points to the bit, and orders them anew.
-    std::vector<VertexId> numbers_inside(const Surface& surface) const {
+    std::vector<VertexId> numbers_inside() const {
         PointWelder welder(mesh_.points.size());
         for (const Vec3& p : mesh_.points) welder.add(p);
-        const std::size_t known = welder.points().size();
         std::vector<VertexId> numbers;
-        for (VertexId v = 0; v < surface.vertex_count(); ++v) {
-            numbers.push_back(welder.add(layers_.inner.points()[v]));
-            if (known != mesh_.points.size() || numbers.back() >= known)
-                throw AlgorithmFailure("layers: the inner surface's points were lost");
-        }
+        for (const Vec3& p : layers_.inner.points()) numbers.push_back(welder.add(p));
+        if (welder.points().size() != mesh_.points.size())
+            throw AlgorithmFailure("layers: points of the inner surface were lost");
         return numbers;
     }
 
@@ -161,13 +169,14 @@ LayeredMesh layered_mesh(const Surface& given, const TetrahedralizeParameters& p
         fillable_surface(given, result.report.warnings, progress.part(0.0, 0.1));
     const WallLayers layers = wall_layers(surface, asked, progress.part(0.1, 0.25));
     result.layers = layer_report(layers);
+    require_room(result.layers);
     TetrahedralizeResult core = filled_inside(
         layers, inside(parameters, result.layers.prisms, asked.layers), progress.part(0.25, 0.95));
     core.report.warnings.insert(core.report.warnings.begin(), result.report.warnings.begin(),
                                 result.report.warnings.end());
     result.report = std::move(core.report);
     progress.report(0.95, "checking the cells");
-    result.mesh = Joining(surface, layers, std::move(core.mesh)).take();
+    result.mesh = Joining(layers, std::move(core.mesh)).take();
     const std::vector<MeshFace> faces = mesh_faces(result.mesh);
     const std::string lost = mesh_loss(result.mesh, faces, surface, true);
     if (!lost.empty())

@@ -89,6 +89,12 @@ SCENARIO("prisms count as cells", "[meshing][layers]") {
     }
 }
 
+SCENARIO("layers that the lumen has no room for are refused", "[meshing][layers]") {
+    const Surface tube = test::fine_tube(2.0, 6.0, 18);
+    CHECK_THROWS_AS(layered_mesh(tube, {}, {.layers = 4, .thickness_mm = 3.0}), DiagnosedUsage);
+    CHECK_NOTHROW(layered_mesh(tube, {}, {.layers = 4, .thickness_mm = 0.8}));
+}
+
 SCENARIO("a section through the mesh cuts its prisms", "[meshing][layers]") {
     const VolumeMesh mesh = layered_mesh(test::fine_tube(2.0, 8.0, 24), {}, {.layers = 3}).mesh;
     const std::vector<double> values = smallest_dihedral_angles(mesh);

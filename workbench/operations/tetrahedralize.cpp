@@ -45,6 +45,7 @@ Json layers_json(const LayerReport& report) {
     return {{"layers", report.layers},
             {"prisms", report.prisms},
             {"covered_percent", 100.0 * report.covered},
+            {"wished_mm", report.wished},
             {"thickness_mm", report.thickness},
             {"thinnest_mm", report.thinnest},
             {"first_mm", report.first},
@@ -87,7 +88,7 @@ void warn_of_thin_layers(const LayerReport& layers, std::vector<Diagnostic>& war
     warnings.push_back({.code = "layers-limited",
                         .place = layers.places.front().place,
                         .figures = {{"percent", 100.0 * layers.half},
-                                    {"thickness", layers.thickness},
+                                    {"wished", layers.wished},
                                     {"thinnest", layers.thinnest}}});
 }
 
