@@ -715,6 +715,10 @@ constexpr CatalogueText kTexts[] = {
     {"layers-between-openings",
      "layers cannot end where {one} and {other} meet, at {place}: cut them farther apart, or use "
      "{fix}"},
+    {"layers-opening-not-flat",
+     "layers end in the planes of openings, but {opening} is not flat, by {off:%.2g} mm: cut it "
+     "with "
+     "{fix}, or use {fix2}"},
     {"layers-at-fold",
      "no layer can grow where the wall is folded, at {place}: from {count#vertex|vertices} no "
      "direction into the lumen sees all triangles of the wall; smooth the wall there, or use "

@@ -44,6 +44,9 @@ void require_room(const LayerReport& layers) {
                           .remedies = without_layers()});
 }
 
+// The layers' sides lie in an opening's mean plane, from which it may be off a little.
+constexpr double kTolerance = 1e-4;
+
 TetrahedralizeResult filled_inside(const WallLayers& layers,
                                    const TetrahedralizeParameters& parameters,
                                    const Progress& progress) {
@@ -178,7 +181,7 @@ LayeredMesh layered_mesh(const Surface& given, const TetrahedralizeParameters& p
     progress.report(0.95, "checking the cells");
     result.mesh = Joining(layers, std::move(core.mesh)).take();
     const std::vector<MeshFace> faces = mesh_faces(result.mesh);
-    const std::string lost = mesh_loss(result.mesh, faces, surface, true);
+    const std::string lost = mesh_loss(result.mesh, faces, surface, true, kTolerance);
     if (!lost.empty())
         throw DiagnosedFailure(
             {.code = "layers-invalid", .words = {{"reason", lost}}, .remedies = without_layers()});

@@ -22,7 +22,7 @@ struct LayeredWall {
 };
 
 /// \param surface closed
-/// \throw InvalidInput if two openings meet, or all of the surface is an opening
+/// \throw InvalidInput if two openings meet, one is not flat, or all of the surface is an opening
 [[nodiscard]] LayeredWall layered_wall(const Surface& surface);
 
 /// What lies in the plane of the opening at whose rim a vertex is; elsewhere the vector itself.

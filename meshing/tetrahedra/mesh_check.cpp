@@ -9,8 +9,6 @@ namespace vesselbench {
 
 namespace {
 
-constexpr double kVolumeTolerance = 1e-6;
-
 std::vector<double> patch_areas(const Positions& points, std::span<const Triangle> triangles,
                                 const PatchLabels& labels, std::size_t patches) {
     std::vector<double> areas(patches, 0.0);
@@ -47,10 +45,10 @@ std::size_t region_count(const VolumeMesh& mesh, std::span<const MeshFace> faces
 }  // namespace
 
 std::string mesh_loss(const VolumeMesh& mesh, std::span<const MeshFace> faces,
-                      const Surface& surface, bool keeps_surface) {
+                      const Surface& surface, bool keeps_surface, double tolerance) {
     if (mesh.tetrahedra.empty()) return "no cells";
     const double wanted = volume(surface), got = volume(mesh);
-    if (std::abs(got - wanted) > kVolumeTolerance * wanted)
+    if (std::abs(got - wanted) > tolerance * wanted)
         return "the cells fill " + std::to_string(got) + " mm^3 of " + std::to_string(wanted);
     for (const auto& [a, b, c, d] : mesh.tetrahedra) {
         const auto& p = mesh.points;
@@ -66,7 +64,7 @@ std::string mesh_loss(const VolumeMesh& mesh, std::span<const MeshFace> faces,
         patch_areas(surface.points(), surface.triangles(), *surface.patch_labels, patches);
     const auto after = patch_areas(mesh);
     for (std::size_t k = 0; k < patches; ++k)
-        if (std::abs(after[k] - before[k]) > kVolumeTolerance * (before[k] + 1e-12))
+        if (std::abs(after[k] - before[k]) > tolerance * (before[k] + 1e-12))
             return "patch " + surface.patches[k].name + " lost area";
     return region_count(mesh, faces) == 1 ? "" : "the cells form several regions";
 }

@@ -13,7 +13,9 @@ namespace vesselbench {
 /// inverted cells, several regions. Empty if it does not.
 /// \param faces of `mesh_faces`
 /// \param keeps_surface the boundary's triangles should be as many as the surface's
+/// \param tolerance of volume and areas [-]
 [[nodiscard]] std::string mesh_loss(const VolumeMesh& mesh, std::span<const MeshFace> faces,
-                                    const Surface& surface, bool keeps_surface);
+                                    const Surface& surface, bool keeps_surface,
+                                    double tolerance = 1e-6);
 
 }  // namespace vesselbench

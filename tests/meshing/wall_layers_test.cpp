@@ -168,6 +168,20 @@ SCENARIO("openings stay flat, with columns of the rim in them", "[meshing][layer
     }
 }
 
+SCENARIO("an opening that is not flat is named", "[meshing][layers]") {
+    const Surface dented = test::mapped(straight_tube(), [](const Vec3& p) {
+        return Vec3(p.x(), p.y(), p.z() + (p.z() > 11.99 ? 0.05 * p.x() * p.x() : 0.0));
+    });
+    try {
+        (void)wall_layers(dented, {.layers = 2});
+        FAIL("was not refused");
+    } catch (const DiagnosedInput& failure) {
+        const Diagnostic& what = failure.diagnostics().front();
+        CHECK(what.code == "layers-opening-not-flat");
+        CHECK(what.words.at("opening") == "outlet_1");
+    }
+}
+
 SCENARIO("layers do not depend on how the vessel lies", "[meshing][layers]") {
     const Surface tube = bent_tube(6.0);
     const Surface turned = test::mapped(tube, [](const Vec3& p) {
@@ -196,7 +210,7 @@ SCENARIO("a tight bend thins the layers evenly instead of folding them", "[meshi
 }
 
 SCENARIO("layers are refused with a place where they cannot grow", "[meshing][layers]") {
-    GIVEN("a tube with a vertex of its wall pulled through the wall beside it") {
+    GIVEN("a tube with a vertex of its wall pulled past its neighbours") {
         const Surface tube = straight_tube();
         Positions points = tube.points();
         VertexId pulled = 0;
@@ -204,8 +218,7 @@ SCENARIO("layers are refused with a place where they cannot grow", "[meshing][la
             if (std::abs(points[v].z() - 6.0) < 0.3 &&
                 std::hypot(points[v].x(), points[v].y()) > 1.9)
                 pulled = v;
-        const Vec3 out(points[pulled].x(), points[pulled].y(), 0.0);
-        points[pulled] -= 0.08 * out + Vec3(0, 0, 0.8);
+        points[pulled].z() += 0.8;  // past its neighbours, which are 0.4 mm away
         THEN("the refusal names the fold's place") {
             try {
                 (void)wall_layers(tube.with_positions(points), {.layers = 4});
