@@ -11,7 +11,6 @@ namespace vesselbench {
 /// Where layers are much thinner than they should be.
 struct ThinPlace {
     Vec3 place = Vec3::Zero();  ///< of the thinnest column nearby, on the wall [mm]
-    double wished = 0.0;        ///< median of what all layers together would be without limits [mm]
     double thickness = 0.0;     ///< [mm]
     double share = 1.0;         ///< of what it should be [-]
 };
@@ -21,6 +20,7 @@ struct LayerReport {
     int layers = 0;
     std::size_t prisms = 0;
     double covered = 1.0;    ///< share of the wall's area with all layers [-]
+    double wished = 0.0;     ///< median of what all layers together would be without limits [mm]
     double thickness = 0.0;  ///< median of all layers together [mm]
     double thinnest = 0.0;   ///< [mm]
     double first = 0.0;      ///< median height of the layer at the wall [mm]
