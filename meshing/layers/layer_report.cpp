@@ -22,7 +22,8 @@ std::vector<double> vertex_areas(const Surface& wall) {
 }
 
 // The thinnest columns, each a vessel's radius or so away from the others.
-std::vector<ThinPlace> thin_places(const WallLayers& layers, const std::vector<double>& shares) {
+std::vector<ThinPlace> thin_places(const WallLayers& layers, const std::vector<double>& thicknesses,
+                                   const std::vector<double>& shares) {
     constexpr double kApart = 5.0;  // in thicknesses wished, which are a fifth of it as a rule
     std::vector<VertexId> thin;
     for (VertexId v = 0; v < shares.size(); ++v)
@@ -36,7 +37,7 @@ std::vector<ThinPlace> thin_places(const WallLayers& layers, const std::vector<d
                 return (other.place - at).norm() < kApart * layers.wished[v];
             }))
             continue;
-        places.push_back({.place = at, .thickness = layers.lengths[v], .share = shares[v]});
+        places.push_back({.place = at, .thickness = thicknesses[v], .share = shares[v]});
     }
     return places;
 }
@@ -62,7 +63,7 @@ LayerReport layer_report(const WallLayers& layers) {
     report.thickness = weighted_percentile(thicknesses, areas, 0.5);
     report.thinnest = std::ranges::min(thicknesses);
     report.first = report.thickness * layers.levels[1];
-    report.places = thin_places(layers, shares);
+    report.places = thin_places(layers, thicknesses, shares);
     return report;
 }
 
