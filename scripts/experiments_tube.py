@@ -158,14 +158,16 @@ def page(rows):
     reynolds = 2e-3 * DENSITY * FLOW / (math.pi * RADIUS * VISCOSITY)
     return f"""# Wall shear stress in a tube, with and without wall layers
 
-`scripts/experiments_tube.py` wrote this page with {page_rows.revision()}. Developed flow (Hagen and Poiseuille) of {FLOW} cm³/s in
-a tube of radius R = {RADIUS:g} mm, Reynolds number {reynolds:.0f}; the exact shear stress on the wall is {SHEAR:.3f} Pa. Errors are
-relative to it, over all faces of the wall between {DEVELOPED[0]:g} and {DEVELOPED[1]:g} of the length; the 99th percentile is of their
-magnitude. Arguments are those of `tetrahedralize`; solved by OpenFOAM's simpleFoam with the case that `export` writes.
+`scripts/experiments_tube.py` wrote this page with {page_rows.revision()}. Developed flow (Hagen and Poiseuille) of
+{FLOW} cm³/s in a tube of radius R = {RADIUS:g} mm, Reynolds number {reynolds:.0f}; the exact shear stress on the wall is
+{SHEAR:.3f} Pa. Errors are relative to it, over all faces of the wall between {DEVELOPED[0]:g} and {DEVELOPED[1]:g} of the
+length; the 99th percentile is of their magnitude. Arguments are those of `tetrahedralize`; solved by OpenFOAM's simpleFoam
+with the case that `export` writes.
 
 {table(HEAD, rows)}
-Without layers the mean is right to half a percent from edges of 0.2 R on, but single places of the wall are not: how a tetrahedron happens
-to lie there decides. The centres of prisms have one distance from the wall. How thick the layers are counts for more than how many.
+Without layers the mean is right to half a percent from edges of 0.2 R on, but single places of the wall are not: how a
+tetrahedron happens to lie there decides. The centres of prisms have one distance from the wall. How thick the layers are
+counts for more than how many.
 """
 
 
