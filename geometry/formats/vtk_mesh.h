@@ -24,7 +24,8 @@ struct VtkMesh {
     std::string provenance;  ///< of the model, the field array Provenance; empty: none
 };
 
-inline constexpr std::uint8_t kVtkTriangle = 5, kVtkTetrahedron = 10;
+inline constexpr std::uint8_t kVtkTriangle = 5, kVtkQuadrangle = 9, kVtkTetrahedron = 10,
+                              kVtkWedge = 13;
 
 /// Adds a cell. \param region its entry of CellEntityIds
 template <class Corners>

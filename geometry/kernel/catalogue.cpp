@@ -712,6 +712,34 @@ constexpr CatalogueText kTexts[] = {
     {"surface-divided",
      "TetGen had to divide triangles of the surface: the volume mesh's boundary is finer than the "
      "surface"},
+    {"layers-between-openings",
+     "layers cannot end where {one} and {other} meet, at {place}: cut them farther apart, or use "
+     "{fix}"},
+    {"layers-opening-not-flat",
+     "layers end in the planes of openings, but {opening} is not flat, by {off:%.2g} mm: cut it "
+     "with "
+     "{fix}, or use {fix2}"},
+    {"layers-at-fold",
+     "no layer can grow where the wall is folded, at {place}: from {count#vertex|vertices} no "
+     "direction into the lumen sees all triangles of the wall; smooth the wall there, or use "
+     "{fix}"},
+    {"layers-too-thin",
+     "no valid layer is found at {place}, however thin: smooth the wall there, or use {fix}"},
+    {"layers-exceed-cells",
+     "{layers#layer|layers} on this wall are {prisms:%.0f} prisms, too many of {wanted:%.0f} "
+     "cells: "
+     "fewer layers, more cells, or longer edges by {fix}"},
+    {"layers-beyond-lumen",
+     "layers of {wished:%.3g} mm have no room in the lumen, where {thickness:%.2g} mm is the most "
+     "on "
+     "half of the wall; ask for less, or use {fix}"},
+    {"layers-not-filled",
+     "the lumen inside the layers cannot be filled ({reason}); thinner layers may help, or use "
+     "{fix}"},
+    {"layers-invalid", "the mesh with layers is not valid ({reason}); use {fix}"},
+    {"layers-limited",
+     "the wall's layers are thinner than half of {wished:%.3g} mm on {percent:%.1f} % of the "
+     "wall, the thinnest {thinnest:%.2g} mm at {place}: walls are close or curved there"},
     {"surface-not-fillable", "the surface cannot be filled with tetrahedra:{obstacles}"},
     {"surface-not-finite",
      "{count#coordinate is not a finite number|coordinates are not finite numbers}: the file is "

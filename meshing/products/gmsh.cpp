@@ -9,7 +9,7 @@ namespace vesselbench {
 
 namespace {
 
-constexpr int kGmshTriangle = 2, kGmshTetrahedron = 4;
+constexpr int kGmshTriangle = 2, kGmshQuadrangle = 3, kGmshTetrahedron = 4, kGmshPrism = 6;
 
 void put_names(TextBuffer& out, const VolumeMesh& mesh) {
     out << "$PhysicalNames\n" << mesh.patches.size() + 1 << '\n';
@@ -38,16 +38,27 @@ void put_element(TextBuffer& out, std::size_t number, int type, std::size_t regi
 }
 
 void put_elements(TextBuffer& out, const VolumeMesh& mesh, LoopProgress& rows) {
-    out << "$Elements\n" << mesh.boundary.size() + mesh.tetrahedra.size() << '\n';
+    out << "$Elements\n"
+        << mesh.boundary.size() + mesh.boundary_sides.size() + mesh.cell_count() << '\n';
     std::size_t number = 0;
     for (std::size_t t = 0; t < mesh.boundary.size(); ++t) {
         rows.step();
         put_element(out, ++number, kGmshTriangle, std::size_t{mesh.boundary_patches[t]} + 1,
                     mesh.boundary[t]);
     }
+    for (std::size_t t = 0; t < mesh.boundary_sides.size(); ++t) {
+        rows.step();
+        put_element(out, ++number, kGmshQuadrangle, std::size_t{mesh.side_patches[t]} + 1,
+                    mesh.boundary_sides[t]);
+    }
     for (const Tetrahedron& cell : mesh.tetrahedra) {
         rows.step();
         put_element(out, ++number, kGmshTetrahedron, mesh.patches.size() + 1, cell);
+    }
+    for (const auto& [a, b, c, d, e, f] : mesh.prisms) {
+        rows.step();
+        const Prism inner_first = {d, e, f, a, b, c};  // Gmsh's order
+        put_element(out, ++number, kGmshPrism, mesh.patches.size() + 1, inner_first);
     }
     out << "$EndElements\n";
 }
@@ -60,8 +71,10 @@ void write_msh(const VolumeMesh& mesh, const std::string& path, const Progress& 
     TextBuffer out;
     out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
     put_names(out, mesh);
-    LoopProgress rows(progress, mesh.points.size() + mesh.boundary.size() + mesh.tetrahedra.size(),
-                      writing_text(path));
+    LoopProgress rows(
+        progress,
+        mesh.points.size() + mesh.boundary.size() + mesh.boundary_sides.size() + mesh.cell_count(),
+        writing_text(path));
     put_points(out, mesh, rows);
     put_elements(out, mesh, rows);
     write_file(path, out.text(), progress);

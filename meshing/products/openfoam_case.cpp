@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "geometry/formats/comment_line.h"
@@ -27,17 +28,14 @@ struct CaseWriter {
     std::vector<MeshFace> faces;
     std::vector<FoamPatch> patches;
 
-    [[nodiscard]] std::vector<Triangle> triangles_of(const FoamPatch& patch) const {
-        std::vector<Triangle> triangles;
-        for (std::size_t f = patch.first_face; f < patch.first_face + patch.faces; ++f)
-            triangles.push_back(faces[f].corners);
-        return triangles;
+    [[nodiscard]] std::span<const MeshFace> faces_of(const FoamPatch& patch) const {
+        return std::span(faces).subspan(patch.first_face, patch.faces);
     }
 
     [[nodiscard]] Vec3 area_vector(const FoamPatch& patch) const {  // outward [mm^2]
         Vec3 sum = Vec3::Zero();
-        for (const Triangle& triangle : triangles_of(patch))
-            sum += 0.5 * area_normal(mesh.points, triangle);
+        for (const MeshFace& face : faces_of(patch))
+            sum += 0.5 * face_normal(mesh.points, face.corners);
         return sum;
     }
 
@@ -64,20 +62,41 @@ struct CaseWriter {
     [[nodiscard]] std::string decomposition() const;
 };
 
+// Of every face; a quadrilateral's is the mean over its two triangles, weighted by area.
+std::vector<double> profile_of_faces(const Positions& points, std::span<const MeshFace> faces) {
+    std::vector<Triangle> triangles;
+    for (const MeshFace& face : faces)
+        for (std::size_t k = 2; k < face.corners.size(); ++k)
+            triangles.push_back({face.corners[0], face.corners[k - 1], face.corners[k]});
+    const std::vector<double> profile = developed_profile(points, triangles);
+    std::vector<double> means;
+    for (std::size_t t = 0; const MeshFace& face : faces) {
+        if (face.corners.size() == 3) {
+            means.push_back(profile[t++]);
+            continue;
+        }
+        const double first = area_normal(points, triangles[t]).norm(),
+                     second = area_normal(points, triangles[t + 1]).norm();
+        means.push_back((first * profile[t] + second * profile[t + 1]) / (first + second));
+        t += 2;
+    }
+    return means;
+}
+
 // Directed along the mean inward normal, with an exact mean velocity although a rim is never quite
 // flat.
 void CaseWriter::put_inflow(TextBuffer& out, const FoamPatch& inlet) const {
     const Vec3 inward = -area_vector(inlet).normalized();
-    const std::vector<Triangle> triangles = triangles_of(inlet);
-    std::vector<double> profile(triangles.size(), 1.0);
+    const std::span<const MeshFace> rows = faces_of(inlet);
+    std::vector<double> profile(rows.size(), 1.0);
     if (parameters.profile == InflowProfile::Parabolic)
-        profile = developed_profile(mesh.points, triangles);
+        profile = profile_of_faces(mesh.points, rows);
     double flux = 0.0;  // of the profile [mm^2]
-    for (std::size_t t = 0; t < triangles.size(); ++t)
-        flux -= profile[t] * 0.5 * area_normal(mesh.points, triangles[t]).dot(inward);
+    for (std::size_t f = 0; f < rows.size(); ++f)
+        flux -= profile[f] * 0.5 * face_normal(mesh.points, rows[f].corners).dot(inward);
     const double scale = flow_through(inlet) / flux;  // [m/s]
     out << "        type            fixedValue;\n        value           nonuniform List<vector>\n"
-        << triangles.size() << "\n(\n";
+        << rows.size() << "\n(\n";
     for (const double u : profile) {
         const Vec3 velocity = u * scale * inward;
         out << '(' << velocity.x() << ' ' << velocity.y() << ' ' << velocity.z() << ")\n";
@@ -314,9 +333,10 @@ std::string readme(const VolumeMesh& mesh, const CfdParameters& parameters,
                    const std::string& flows) {
     TextBuffer out;
     out << "OpenFOAM case of steady laminar blood flow, written by vesselbench.\n\n"
-        << "  " << mesh.tetrahedra.size() << " tetrahedra; lengths in metres; density "
-        << parameters.density << " kg/m^3, viscosity " << parameters.viscosity << " Pa s; " << flows
-        << "\n"
+        << "  " << mesh.tetrahedra.size() << " tetrahedra";
+    if (!mesh.prisms.empty()) out << " and " << mesh.prisms.size() << " prisms along the wall";
+    out << "; lengths in metres; density " << parameters.density << " kg/m^3, viscosity "
+        << parameters.viscosity << " Pa s; " << flows << "\n"
         << "  no-slip walls; outlets at pressure 0, backflow enters at rest\n\n"
         << "  ./Allrun           checkMesh and simpleFoam on one core\n"
         << "  ./Allrun.parallel  decomposePar, mpirun -np " << parameters.processes

@@ -33,7 +33,9 @@ void write_faces(const std::filesystem::path& folder, const std::vector<MeshFace
     out << foam_header("faceList", "constant/polyMesh", "faces") << faces.size() << "\n(\n";
     for (const MeshFace& f : faces) {
         rows.loop.step();
-        out << "3(" << f.corners[0] << ' ' << f.corners[1] << ' ' << f.corners[2] << ")\n";
+        out << f.corners.size() << '(' << f.corners[0];
+        for (std::size_t k = 1; k < f.corners.size(); ++k) out << ' ' << f.corners[k];
+        out << ")\n";
     }
     out << ")\n";
     write_file(folder / "faces", out.text(), rows.progress);
@@ -51,7 +53,7 @@ void write_cells_of_faces(const std::filesystem::path& folder, const VolumeMesh&
         ++inner;
     }
     TextBuffer note;
-    note << "nPoints:" << mesh.points.size() << " nCells:" << mesh.tetrahedra.size()
+    note << "nPoints:" << mesh.points.size() << " nCells:" << mesh.cell_count()
          << " nFaces:" << faces.size() << " nInternalFaces:" << inner;
     TextBuffer owner, neighbour;
     owner << foam_header("labelList", "constant/polyMesh", "owner", note.text()) << faces.size()

@@ -5,9 +5,9 @@
 
 namespace vesselbench {
 
-/// Renumbers the cells so that neighbours have close numbers (solvers run faster and converge
-/// better); points, boundary and patches are unchanged.
-/// Source: Cuthill & McKee, "Reducing the bandwidth of sparse symmetric matrices", 1969.
+/// Renumbers the tetrahedra of a mesh without prisms so that neighbours have close numbers (solvers
+/// run faster and converge better); points, boundary and patches are unchanged. Source: Cuthill &
+/// McKee, "Reducing the bandwidth of sparse symmetric matrices", 1969.
 /// \param neighbours receives those of the cells in their new order
 [[nodiscard]] VolumeMesh in_cell_order(VolumeMesh mesh, CellNeighbours& neighbours);
 

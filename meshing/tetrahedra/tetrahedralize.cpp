@@ -6,12 +6,12 @@
 
 #include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/diagnostic_text.h"
-#include "geometry/kernel/disjoint_sets.h"
 #include "geometry/kernel/edges.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/wording.h"
 #include "meshing/tetrahedra/cell_order.h"
+#include "meshing/tetrahedra/mesh_check.h"
 #include "meshing/tetrahedra/optimise.h"
 #include "meshing/tetrahedra/size_field.h"
 #include "meshing/tetrahedra/surface_check.h"
@@ -35,7 +35,6 @@ constexpr double kSteep = 0.5, kMoreWhereSteep = 0.2;  // the latter by the loga
 constexpr double kSameCells = 0.05;
 // Exchanges leave this fraction of TetGen's cells.
 constexpr double kCellsAfterExchanges = 0.945;
-constexpr double kVolumeTolerance = 1e-6;
 
 struct Rung {
     std::string switches;  // without the quality bound
@@ -43,22 +42,26 @@ struct Rung {
     const char* remedy;
 };
 
-std::vector<Rung> ladder(double quality) {
+std::vector<Rung> ladder(double quality, bool may_divide) {
     const std::string bound = formatted(quality, "q%.3g");
-    return {{"pY" + bound + "/10", true, "the usual settings"},
-            {"pY" + bound + "/0O1", true, "no bound on dihedral angles"},
-            {"pY" + bound + "/10T1e-11", true, "finer tolerance for coplanar facets"},
-            {"pY" + bound + "/10T1e-6", true, "coarser tolerance for coplanar facets"},
-            {"pYq2.0/0O1T1e-11", true, "weaker quality bound, finer tolerance"},
-            {"p" + bound + "/10", false, "surface triangles may be divided"},
-            {"pq2.0/0T1e-6", false, "surface triangles may be divided, coarser tolerance"}};
+    std::vector<Rung> rungs = {
+        {"pY" + bound + "/10", true, "the usual settings"},
+        {"pY" + bound + "/0O1", true, "no bound on dihedral angles"},
+        {"pY" + bound + "/10T1e-11", true, "finer tolerance for coplanar facets"},
+        {"pY" + bound + "/10T1e-6", true, "coarser tolerance for coplanar facets"},
+        {"pYq2.0/0O1T1e-11", true, "weaker quality bound, finer tolerance"},
+        {"p" + bound + "/10", false, "surface triangles may be divided"},
+        {"pq2.0/0T1e-6", false, "surface triangles may be divided, coarser tolerance"}};
+    if (!may_divide) std::erase_if(rungs, [](const Rung& rung) { return !rung.keeps_surface; });
+    return rungs;
 }
 
-void check_input(const Surface& surface, TetrahedralizeReport& report, const Progress& progress) {
+void check_input(const Surface& surface, std::vector<Diagnostic>& warnings,
+                 const Progress& progress) {
     if (surface.empty()) throw InvalidInput("the surface has no triangles");
     std::vector<Diagnostic> obstacles;
     for (const SurfaceProblem& problem : surface_problems(surface, progress))
-        (is_obstacle(problem) ? obstacles : report.warnings).push_back(diagnostic_of(problem));
+        (is_obstacle(problem) ? obstacles : warnings).push_back(diagnostic_of(problem));
     if (obstacles.empty()) return;
     std::string list;
     for (const Diagnostic& obstacle : obstacles) list += "\n  " + text_of(obstacle);
@@ -69,54 +72,6 @@ void check_input(const Surface& surface, TetrahedralizeReport& report, const Pro
                      .remedies = obstacles.front().remedies};
     obstacles.insert(obstacles.begin(), std::move(whole));
     throw DiagnosedInput(std::move(obstacles));
-}
-
-std::vector<double> patch_areas(const Positions& points, std::span<const Triangle> triangles,
-                                const PatchLabels& labels, std::size_t patches) {
-    std::vector<double> areas(patches, 0.0);
-    for (std::size_t t = 0; t < triangles.size(); ++t)
-        areas[labels[t]] += triangle_area(points, triangles[t]);
-    return areas;
-}
-
-std::vector<std::size_t> patch_counts(const PatchLabels& labels, std::size_t patches) {
-    std::vector<std::size_t> counts(patches, 0);
-    for (const auto label : labels) ++counts[label];
-    return counts;
-}
-
-// Groups of cells connected through faces; more than one group means that the region fell apart.
-std::size_t region_count(const VolumeMesh& mesh, std::span<const MeshFace> faces) {
-    DisjointSets sets(mesh.tetrahedra.size());
-    std::size_t regions = mesh.tetrahedra.size();
-    for (const MeshFace& face : faces)
-        if (face.neighbour != MeshFace::kOutside && sets.join(face.owner, face.neighbour))
-            --regions;
-    return regions;
-}
-
-// How the mesh departs from the surface; empty if it does not.
-std::string loss(const VolumeMesh& mesh, std::span<const MeshFace> faces, const Surface& surface,
-                 bool keeps_surface) {
-    if (mesh.tetrahedra.empty()) return "no cells";
-    const double wanted = volume(surface), got = volume(mesh);
-    if (std::abs(got - wanted) > kVolumeTolerance * wanted)
-        return "the cells fill " + std::to_string(got) + " mm^3 of " + std::to_string(wanted);
-    for (const auto& [a, b, c, d] : mesh.tetrahedra) {
-        const auto& p = mesh.points;
-        if ((p[b] - p[a]).cross(p[c] - p[a]).dot(p[d] - p[a]) <= 0.0) return "a cell is inverted";
-    }
-    const std::size_t patches = surface.patches.size();
-    if (keeps_surface && patch_counts(mesh.boundary_patches, patches) !=
-                             patch_counts(*surface.patch_labels, patches))
-        return "boundary triangles were lost or divided";
-    const auto before =
-        patch_areas(surface.points(), surface.triangles(), *surface.patch_labels, patches);
-    const auto after = patch_areas(mesh.points, mesh.boundary, mesh.boundary_patches, patches);
-    for (std::size_t k = 0; k < patches; ++k)
-        if (std::abs(after[k] - before[k]) > kVolumeTolerance * (before[k] + 1e-12))
-            return "patch " + surface.patches[k].name + " lost area";
-    return region_count(mesh, faces) == 1 ? "" : "the cells form several regions";
 }
 
 // Points that fill a tetrahedron evenly, as weights of three of its corners.
@@ -144,7 +99,7 @@ public:
            TetrahedralizeReport& report, Progress progress)
         : surface_(surface),
           sizes_(surface, parameters.growth),
-          rungs_(ladder(parameters.quality)),
+          rungs_(ladder(parameters.quality, parameters.may_divide)),
           report_(report),
           progress_(std::move(progress)) {}
 
@@ -161,7 +116,8 @@ public:
             std::string failure = result.error;
             std::vector<MeshFace> faces;
             if (failure.empty()) faces = mesh_faces(result.mesh);
-            if (failure.empty()) failure = loss(result.mesh, faces, surface_, rung.keeps_surface);
+            if (failure.empty())
+                failure = mesh_loss(result.mesh, faces, surface_, rung.keeps_surface);
             report_.attempts.push_back(
                 rung.switches + " (" + rung.remedy + "), size " + formatted(factor, "%.4g") + ": " +
                 (failure.empty() ? std::to_string(result.mesh.tetrahedra.size()) + " cells"
@@ -255,7 +211,9 @@ VolumeMesh mesh_of_size(Mesher& mesher, const TetrahedralizeParameters& paramete
 // Below this factor the lumen is resolved much finer than the wall, where the shear matters.
 constexpr double kFineLumen = 0.6;
 
-void warn_of_number(double wanted, TetrahedralizeReport& report) {
+}  // namespace
+
+void warn_of_cell_count(double wanted, TetrahedralizeReport& report) {
     const auto reached = static_cast<double>(report.quality.cells);
     const std::vector<Remedy> remesh = {{.operation = "remesh"}};
     if (std::abs(reached / wanted - 1.0) > 0.1)
@@ -268,28 +226,28 @@ void warn_of_number(double wanted, TetrahedralizeReport& report) {
                                    .remedies = remesh});
 }
 
-}  // namespace
-
-TetrahedralizeResult tetrahedralized(const Surface& given,
-                                     const TetrahedralizeParameters& parameters,
-                                     const Progress& progress) {
-    TetrahedralizeResult result;
+Surface fillable_surface(const Surface& given, std::vector<Diagnostic>& warnings,
+                         const Progress& progress) {
     progress.report(0.0, "checking the surface");
-    check_input(given, result.report, progress.part(0.0, 0.1));
+    check_input(given, warnings, progress);
     // TetGen would take unused vertices as points of the lumen.
-    const Surface surface =
-        select_triangles(given, std::vector<bool>(given.triangle_count(), true));
-    progress.report(0.1, "filling the lumen");
-    Mesher mesher(surface, parameters, result.report, progress.part(0.1, 0.5));
+    return select_triangles(given, std::vector<bool>(given.triangle_count(), true));
+}
+
+TetrahedralizeResult fill_lumen(const Surface& surface, const TetrahedralizeParameters& parameters,
+                                const Progress& progress) {
+    TetrahedralizeResult result;
+    progress.report(0.0, "filling the lumen");
+    Mesher mesher(surface, parameters, result.report, progress.part(0.0, 0.45));
     result.mesh = mesh_of_size(mesher, parameters, result.report);
     if (parameters.improve > 0)
         result.mesh =
-            optimised(result.mesh, {.rounds = parameters.improve}, progress.part(0.5, 0.95));
+            optimised(result.mesh, {.rounds = parameters.improve}, progress.part(0.45, 0.95));
     progress.report(0.95, "checking the cells");
     CellNeighbours neighbours;
     result.mesh = in_cell_order(std::move(result.mesh), neighbours);
     const std::vector<MeshFace> faces = mesh_faces(result.mesh, neighbours);
-    const std::string lost = loss(result.mesh, faces, surface, result.report.surface_kept);
+    const std::string lost = mesh_loss(result.mesh, faces, surface, result.report.surface_kept);
     if (!lost.empty())
         throw DiagnosedFailure({.code = "improved-mesh-invalid",
                                 .operation = "tetrahedralize",
@@ -297,7 +255,17 @@ TetrahedralizeResult tetrahedralized(const Surface& given,
                                 .remedies = {{.arguments = {{"improve", "0"}}}}});
     if (!result.report.surface_kept) result.report.warnings.push_back({.code = "surface-divided"});
     result.report.quality = volume_quality(result.mesh, faces);
-    if (parameters.cells) warn_of_number(*parameters.cells, result.report);
+    return result;
+}
+
+TetrahedralizeResult tetrahedralized(const Surface& given,
+                                     const TetrahedralizeParameters& parameters,
+                                     const Progress& progress) {
+    std::vector<Diagnostic> warnings;
+    const Surface surface = fillable_surface(given, warnings, progress.part(0.0, 0.1));
+    TetrahedralizeResult result = fill_lumen(surface, parameters, progress.part(0.1, 1.0));
+    result.report.warnings.insert(result.report.warnings.begin(), warnings.begin(), warnings.end());
+    if (parameters.cells) warn_of_cell_count(*parameters.cells, result.report);
     return result;
 }
 

@@ -18,6 +18,7 @@ struct TetrahedralizeParameters {
     double growth = 0.15;  ///< growth of the edge length per distance from the wall [-], >= 0
     double quality = 1.2;  ///< largest ratio of circumradius to shortest edge in TetGen [-], >= 1.1
     int improve = 4;       ///< rounds of improvement after TetGen; 0: none
+    bool may_divide = true;  ///< triangles of the surface may be divided if nothing else works
 };
 
 /// Settings tried and results.
@@ -45,5 +46,22 @@ struct TetrahedralizeResult {
 [[nodiscard]] TetrahedralizeResult tetrahedralized(const Surface& surface,
                                                    const TetrahedralizeParameters& parameters,
                                                    const Progress& progress = {});
+
+// Its parts, for meshes of which the lumen's core is only one.
+
+/// The surface without unused vertices. \throw InvalidInput as `tetrahedralized`
+/// \param warnings receives what does not prevent filling
+[[nodiscard]] Surface fillable_surface(const Surface& surface, std::vector<Diagnostic>& warnings,
+                                       const Progress& progress = {});
+
+/// \param surface of `fillable_surface`
+/// \throw AlgorithmFailure as `tetrahedralized`
+[[nodiscard]] TetrahedralizeResult fill_lumen(const Surface& surface,
+                                              const TetrahedralizeParameters& parameters,
+                                              const Progress& progress = {});
+
+/// Adds a warning if the cells of the report's quality are not as many as wanted, or the lumen is
+/// much finer than the wall.
+void warn_of_cell_count(double wanted, TetrahedralizeReport& report);
 
 }  // namespace vesselbench

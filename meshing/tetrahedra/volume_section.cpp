@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "geometry/kernel/errors.h"
 
@@ -16,6 +17,30 @@ struct Sides {
     std::array<VertexId, 4> above{}, below{};
     std::size_t above_count = 0, below_count = 0;
 };
+
+/// The polygon in which the plane meets a prism; empty if it does not. Prisms are convex: around
+/// the mean of the points in which it cuts their edges, these are in order by angle.
+Positions polygon_of(const Prism& prism, const Positions& points,
+                     const std::vector<double>& distances, const Vec3& normal) {
+    Positions cuts;
+    const auto cut = [&](VertexId a, VertexId b) {
+        if ((distances[a] >= 0.0) == (distances[b] >= 0.0)) return;
+        const double share = distances[a] / (distances[a] - distances[b]);
+        cuts.emplace_back(points[a] + share * (points[b] - points[a]));
+    };
+    for (std::size_t k = 0; k < 3; ++k) {
+        cut(prism[k], prism[(k + 1) % 3]);
+        cut(prism[k], prism[k + 3]);
+        cut(prism[k + 3], prism[(k + 1) % 3 + 3]);
+    }
+    if (cuts.empty()) return cuts;
+    Vec3 middle = Vec3::Zero();
+    for (const Vec3& p : cuts) middle += p / static_cast<double>(cuts.size());
+    const Vec3 x = normal.unitOrthogonal(), y = normal.cross(x);
+    std::ranges::sort(
+        cuts, {}, [&](const Vec3& p) { return std::atan2(y.dot(p - middle), x.dot(p - middle)); });
+    return cuts;
+}
 
 Sides sides_of(const Tetrahedron& cell, const std::vector<double>& distances) {
     Sides sides;
@@ -71,9 +96,9 @@ std::vector<double> VolumeSection::vertex_values() const {
 
 VolumeSection section_of(const VolumeMesh& mesh, std::span<const double> values, const Plane& plane,
                          const Progress& progress) {
-    if (values.size() != mesh.tetrahedra.size())
+    if (values.size() != mesh.cell_count())
         throw InvalidInput("a section needs a value for each of the " +
-                           std::to_string(mesh.tetrahedra.size()) + " tetrahedra, not " +
+                           std::to_string(mesh.cell_count()) + " cells, not " +
                            std::to_string(values.size()));
     std::vector<double> distances(mesh.points.size());
     std::ranges::transform(mesh.points, distances.begin(),
@@ -81,9 +106,13 @@ VolumeSection section_of(const VolumeMesh& mesh, std::span<const double> values,
     VolumeSection section;
     for (std::size_t i = 0; i < values.size(); ++i) {
         if (i % kCellsBetweenChecks == 0) progress.check_cancelled();
-        const Sides sides = sides_of(mesh.tetrahedra[i], distances);
-        if (sides.above_count == 0 || sides.below_count == 0) continue;
-        section.cells.push_back(polygon_of(sides, mesh.points, distances));
+        Positions polygon =
+            i < mesh.tetrahedra.size()
+                ? polygon_of(sides_of(mesh.tetrahedra[i], distances), mesh.points, distances)
+                : polygon_of(mesh.prisms[i - mesh.tetrahedra.size()], mesh.points, distances,
+                             plane.normal);
+        if (polygon.empty()) continue;
+        section.cells.push_back(std::move(polygon));
         section.values.push_back(values[i]);
     }
     return section;

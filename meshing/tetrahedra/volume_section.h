@@ -9,10 +9,10 @@
 
 namespace vesselbench {
 
-/// Where a plane cuts tetrahedra: a triangle or quadrangle of each one that it cuts.
+/// Where a plane cuts the cells: a polygon of each one that it cuts.
 struct VolumeSection {
     std::vector<Positions> cells;  ///< corners of each polygon in order [mm]
-    std::vector<double> values;    ///< #cells, of its tetrahedron
+    std::vector<double> values;    ///< #cells, of its cell
 
     /// The polygons as triangles that share no vertices; empty if there are none.
     [[nodiscard]] Surface surface() const;
@@ -21,8 +21,8 @@ struct VolumeSection {
     [[nodiscard]] std::vector<double> vertex_values() const;
 };
 
-/// \param values of the tetrahedra
-/// \throw InvalidInput unless there is a value for each tetrahedron; Cancelled
+/// \param values of the cells
+/// \throw InvalidInput unless there is a value for each cell; Cancelled
 [[nodiscard]] VolumeSection section_of(const VolumeMesh& mesh, std::span<const double> values,
                                        const Plane& plane, const Progress& progress);
 

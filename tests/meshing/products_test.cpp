@@ -27,6 +27,7 @@
 #include "geometry/formats/surface_file.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
+#include "meshing/layers/layered_mesh.h"
 #include "meshing/products/glb.h"
 #include "meshing/products/gmsh.h"
 #include "meshing/products/threemf.h"
@@ -182,6 +183,52 @@ SCENARIO("volume files carry regions and patch names", "[meshing][products]") {
             CHECK_THROWS_AS(write_msh({}, folder + "/none.msh"), InvalidInput);
             CHECK_THROWS_AS(write_vtu({}, folder + "/none.vtu"), InvalidInput);
             CHECK_FALSE(std::filesystem::exists(folder + "/none.vtu"));
+        }
+    }
+}
+
+SCENARIO("volume files carry the prisms of wall layers", "[meshing][products][layers]") {
+    const VolumeMesh mesh = layered_mesh(test::fine_tube(1.0, 4.0, 12), {}, {.layers = 2}).mesh;
+    REQUIRE(!mesh.boundary_sides.empty());
+    const std::string folder = test::temporary_folder();
+    GIVEN("a VTU file that VTK reads back") {
+        write_vtu(mesh, folder + "/volume.vtu");
+        vtkNew<vtkXMLUnstructuredGridReader> reader;
+        reader->SetFileName((folder + "/volume.vtu").c_str());
+        reader->Update();
+        vtkUnstructuredGrid* grid = reader->GetOutput();
+        THEN("wedges follow the tetrahedra, quadrangles the boundary's triangles") {
+            REQUIRE(grid->GetNumberOfCells() ==
+                    static_cast<vtkIdType>(mesh.cell_count() + mesh.boundary.size() +
+                                           mesh.boundary_sides.size()));
+            std::size_t at = mesh.tetrahedra.size(), wrong = 0;
+            for (const Prism& prism : mesh.prisms) wrong += !is_cell(grid, at++, VTK_WEDGE, prism);
+            at += mesh.boundary.size();
+            for (const Quadrilateral& side : mesh.boundary_sides)
+                wrong += !is_cell(grid, at++, VTK_QUAD, side);
+            CHECK(wrong == 0);
+        }
+        THEN("quadrangles have the openings' regions") {
+            vtkDataArray* regions = grid->GetCellData()->GetArray("CellEntityIds");
+            const std::size_t first = mesh.cell_count() + mesh.boundary.size();
+            for (std::size_t k = 0; k < mesh.side_patches.size(); ++k)
+                REQUIRE(regions->GetComponent(static_cast<vtkIdType>(first + k), 0) ==
+                        mesh.side_patches[k] + 1);
+        }
+    }
+    GIVEN("a Gmsh file") {
+        write_msh(mesh, folder + "/volume.msh");
+        THEN("a prism's first triangle is the inner one, and Gmsh has no complaint") {
+            const Prism& p = mesh.prisms[0];
+            std::string corners;
+            for (const VertexId v : {p[3], p[4], p[5], p[0], p[1], p[2]})
+                corners += " " + std::to_string(v + 1);
+            CHECK(bytes_of(folder + "/volume.msh").find(" 6 2 4 4" + corners + "\n") !=
+                  std::string::npos);
+            const auto run = test::run_command("gmsh", {"-check", folder + "/volume.msh"});
+            if (!run) return;
+            CHECK(run->exit_code == 0);
+            CHECK(run->output.find("Error") == std::string::npos);
         }
     }
 }

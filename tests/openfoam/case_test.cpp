@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <numbers>
@@ -6,6 +7,7 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/kernel/errors.h"
+#include "meshing/layers/layered_mesh.h"
 #include "meshing/products/openfoam_case.h"
 #include "meshing/tetrahedra/tetrahedralize.h"
 #include "tests/support/commands.h"
@@ -81,6 +83,41 @@ SCENARIO("the OpenFOAM case has what a solver needs", "[meshing][openfoam]") {
         std::ofstream(other + "/letter.txt") << "dear";
         CHECK_THROWS_AS(write_openfoam_case(other, mesh, {}), IoError);
         CHECK_FALSE(std::filesystem::exists(other + "/0"));
+    }
+}
+
+SCENARIO("checkMesh is content with wall layers, and finds our own figures",
+         "[meshing][openfoam][layers]") {
+    const Surface tube = test::fine_tube(2.0, 8.0, 24);
+    const LayeredMesh layered = layered_mesh(tube, {}, {.layers = 4});
+    const std::string folder = test::temporary_folder() + "/layers";
+    write_openfoam_case(folder, layered.mesh, {});
+    THEN("the inflow has a value for each triangle and quadrilateral of the inlet") {
+        const std::string boundary = text_of(folder + "/constant/polyMesh/boundary");
+        const auto faces =
+            static_cast<int>(number_after(boundary.substr(boundary.find("inlet")), "nFaces "));
+        CHECK(faces > std::count(tube.patch_labels->begin(), tube.patch_labels->end(), 1));
+        CHECK(text_of(folder + "/0/U").find("List<vector>\n" + std::to_string(faces) + "\n") !=
+              std::string::npos);
+    }
+    THEN("checkMesh agrees") {
+        const auto run = test::run_command("checkMesh", {"-case", folder});
+        if (!run) return;
+        CAPTURE(run->output);
+        CHECK(run->output.find("Mesh OK") != std::string::npos);
+        CHECK(number_after(run->output, "    prisms:") ==
+              static_cast<double>(layered.mesh.prisms.size()));
+        const VolumeQuality& quality = layered.report.quality;
+        CHECK(number_after(run->output, "Mesh non-orthogonality Max: ") ==
+              Approx(quality.largest_non_orthogonality).epsilon(1e-3));
+        CHECK(number_after(run->output, " average: ") ==
+              Approx(quality.mean_non_orthogonality).epsilon(1e-3));
+        CHECK(number_after(run->output, "Max skewness = ") ==
+              Approx(quality.largest_skewness).epsilon(1e-3));
+        CHECK(number_after(run->output, "Max aspect ratio = ") ==
+              Approx(quality.largest_aspect_ratio).epsilon(1e-3));
+        CHECK(number_after(run->output, "Total volume = ") ==
+              Approx(quality.volume * 1e-9).epsilon(1e-5));
     }
 }
 

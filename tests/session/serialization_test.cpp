@@ -106,6 +106,42 @@ SCENARIO("A difference bridges other lengths", "[session][serialization]") {
     }
 }
 
+SCENARIO("A volume mesh with layers is stored whole, and one without as ever",
+         "[session][serialization]") {
+    VolumeMesh mesh;
+    mesh.points = {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}};
+    mesh.tetrahedra = {{3, 4, 6, 5}};
+    mesh.boundary = {{0, 1, 2}};
+    mesh.boundary_patches = {0};
+    mesh.patches = {{"wall", PatchKind::Wall}, {"inlet", PatchKind::Inlet}};
+    const auto blob_of = [](const VolumeMesh& any) {
+        return encode(ScenePart(std::make_shared<const VolumeMesh>(any)), Compression::None);
+    };
+    constexpr std::size_t kVersionByte = 2, kHeader = 40;
+    const Bytes before = blob_of(mesh);
+    mesh.prisms = {{0, 1, 2, 3, 4, 5}};
+    mesh.boundary_sides = {{0, 3, 4, 1}};
+    mesh.side_patches = {1};
+    const Bytes after = blob_of(mesh);
+    CHECK(before[kVersionByte] == std::byte{1});
+    CHECK(after[kVersionByte] == std::byte{2});
+    CHECK(std::equal(before.begin() + kHeader, before.end(), after.begin() + kHeader));
+    const ScenePart back = PartDecoder(after).finish();
+    const VolumeMesh& read = *std::get<std::shared_ptr<const VolumeMesh>>(back);
+    CHECK(read.tetrahedra == mesh.tetrahedra);
+    CHECK(read.prisms == mesh.prisms);
+    CHECK(read.boundary_sides == mesh.boundary_sides);
+    CHECK(read.side_patches == mesh.side_patches);
+    CHECK(content_hash(back) == content_hash(PartDecoder(after).finish()));
+    THEN("a prism or a side of a missing point or patch is refused") {
+        mesh.side_patches = {7};
+        CHECK_THROWS_AS(PartDecoder(blob_of(mesh)).finish(), InvalidInput);
+        mesh.side_patches = {1};
+        mesh.prisms[0][5] = 99;
+        CHECK_THROWS_AS(PartDecoder(blob_of(mesh)).finish(), InvalidInput);
+    }
+}
+
 SCENARIO("Damaged blobs are refused", "[session][serialization]") {
     const Scene scene = full_scene();
     WHEN("a scene is cut short anywhere") {

@@ -113,23 +113,27 @@ SurfaceChange change_from(const Json& json) {
 }
 
 Json volume_quality_json(const VolumeQuality& q) {
-    return {{"points", q.points},
-            {"cells", q.cells},
-            {"volume_mm3", q.volume},
-            {"smallest_cell_mm3", q.smallest_cell},
-            {"mean_edge_mm", q.mean_edge},
-            {"smallest_dihedral_deg", q.smallest_dihedral},
-            {"mean_smallest_dihedral_deg", q.mean_smallest_dihedral},
-            {"largest_dihedral_deg", q.largest_dihedral},
-            {"cells_below_10_deg", q.cells_below_10_deg},
-            {"mean_non_orthogonality_deg", q.mean_non_orthogonality},
-            {"largest_non_orthogonality_deg", q.largest_non_orthogonality},
-            {"faces_over_70_deg", q.faces_over_70_deg},
-            {"faces", q.faces},
-            {"largest_skewness", q.largest_skewness},
-            {"largest_aspect_ratio", q.largest_aspect_ratio},
-            {"mean_volume_ratio", q.mean_volume_ratio},
-            {"largest_volume_ratio", q.largest_volume_ratio}};
+    Json json = {{"points", q.points},
+                 {"cells", q.cells},
+                 {"volume_mm3", q.volume},
+                 {"smallest_cell_mm3", q.smallest_cell},
+                 {"mean_edge_mm", q.mean_edge},
+                 {"smallest_dihedral_deg", q.smallest_dihedral},
+                 {"mean_smallest_dihedral_deg", q.mean_smallest_dihedral},
+                 {"largest_dihedral_deg", q.largest_dihedral},
+                 {"cells_below_10_deg", q.cells_below_10_deg},
+                 {"mean_non_orthogonality_deg", q.mean_non_orthogonality},
+                 {"largest_non_orthogonality_deg", q.largest_non_orthogonality},
+                 {"faces_over_70_deg", q.faces_over_70_deg},
+                 {"faces", q.faces},
+                 {"largest_skewness", q.largest_skewness},
+                 {"largest_aspect_ratio", q.largest_aspect_ratio},
+                 {"mean_volume_ratio", q.mean_volume_ratio},
+                 {"largest_volume_ratio", q.largest_volume_ratio}};
+    if (q.prisms == 0) return json;
+    json["prisms"] = q.prisms;
+    json["smallest_scaled_jacobian"] = q.smallest_scaled_jacobian;
+    return json;
 }
 
 Json reference_json(const ReferenceComparison& comparison) {

@@ -42,7 +42,8 @@ constexpr std::array<ColouringInfo, 8> kColourings = {
      {LocalRadius, "local-radius", "Local radius", "mm",
       "Radius of the largest sphere inside the vessel, along its centerline", WorstEnd::Least},
      {TetrahedraQuality, "tetrahedra-quality", "Tetrahedron quality", "deg",
-      "Smallest dihedral angle of the tetrahedra that the section plane cuts: 70.5 is the best",
+      "Smallest dihedral angle of the cells that the section plane cuts: 70.5 is a tetrahedron's "
+      "best, 60 a prism's",
       WorstEnd::Least}}};
 
 constexpr double kLowest = 0.02, kHighest = 0.98;  ///< percentiles of the automatic range [-]

@@ -51,7 +51,7 @@ struct ValueRange {
 
 struct ColourValues {
     ColouringKind kind = ColouringKind::Patches;
-    std::vector<double> values;  ///< #V of the surface, or #tetrahedra; not-a-number: none
+    std::vector<double> values;  ///< #V of the surface, or #cells; not-a-number: none
     ValueRange range;            ///< shown_range of the values
     /// By which the worst places are ranked, where many have the same value: of staircases, the
     /// change of orientation (thesis Eq. 5.4) [-]. Empty: by the values.

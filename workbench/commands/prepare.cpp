@@ -184,6 +184,8 @@ void export_project(const ExportArguments& arguments, const Progress& progress) 
     Json json = {{"file", arguments.file}, {"variant", variant}, {"review", review_words(review)}};
     if (scene.surface) json["triangles"] = scene.surface->triangle_count();
     if (scene.volume_mesh) json["tetrahedra"] = scene.volume_mesh->tetrahedra.size();
+    if (scene.volume_mesh && !scene.volume_mesh->prisms.empty())
+        json["prisms"] = scene.volume_mesh->prisms.size();
     std::cout << text_from_json(json, 2) << "\n";
 }
 

@@ -71,13 +71,13 @@ Json report_of(const ResultRecord& result) {
     return report.is_object() ? report : Json::object();
 }
 
-/// Quality of the volume mesh, as the edit that made it states it; null if none did.
-Json volume_mesh_json(const std::vector<LogEntry>& edits) {
-    Json quality;
+/// What the edit that made the volume mesh states of it; null if none did.
+Json volume_mesh_json(const std::vector<LogEntry>& edits, const char* what) {
+    Json stated;
     for (const LogEntry& entry : edits)
         if (part_of(entry).makes_volume_mesh && entry.result)
-            quality = report_of(*entry.result).value("quality", Json());
-    return quality;
+            stated = report_of(*entry.result).value(what, Json());
+    return stated;
 }
 
 Json flow_json(const FlowSummary& summary, const CfdParameters& flow) {
@@ -141,7 +141,9 @@ Json neighbours_json(const Scene& scene) {
 /// \return warnings
 std::vector<Diagnostic> add_flow(Json& report, const PreparedCase& prepared,
                                  const std::vector<LogEntry>& edits) {
-    report["volume_mesh"] = volume_mesh_json(edits);
+    report["volume_mesh"] = volume_mesh_json(edits, "quality");
+    if (Json layers = volume_mesh_json(edits, "layers"); !layers.is_null())
+        report["wall_layers"] = std::move(layers);
     const FlowSummary summary =
         flow_summary(*prepared.scene.surface, prepared.flow, inlet_bends(report["openings"]));
     report["flow"] = flow_json(summary, prepared.flow);

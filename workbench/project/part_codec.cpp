@@ -13,7 +13,9 @@ namespace vesselbench {
 namespace {
 
 constexpr std::uint16_t kMagic = 0x4256;  // "VB"
-constexpr std::uint8_t kVersion = 1;
+/// Volume meshes with layers have the second: earlier programs would read them without. All other
+/// parts keep their bytes.
+constexpr std::uint8_t kVersion = 1, kLayersVersion = 2;
 
 // Kinds of parts; their numbers are in the file.
 constexpr std::uint8_t kTopology = 0, kPositions = 1, kLabels = 2, kReals = 3, kVoxels = 4,
@@ -62,6 +64,13 @@ Bytes volume_mesh_bytes(const VolumeMesh& mesh) {
     writer.append(bytes_of(mesh.tetrahedra));
     writer.append(bytes_of(mesh.boundary));
     writer.append(bytes_of(mesh.boundary_patches));
+    if (mesh.prisms.empty()) return writer.take();
+    // Follows where there are layers: meshes of tetrahedra alone keep their bytes.
+    writer.put<std::uint64_t>(mesh.prisms.size());
+    writer.put<std::uint64_t>(mesh.boundary_sides.size());
+    writer.append(bytes_of(mesh.prisms));
+    writer.append(bytes_of(mesh.boundary_sides));
+    writer.append(bytes_of(mesh.side_patches));
     return writer.take();
 }
 
@@ -88,9 +97,12 @@ void check_volume_mesh(const VolumeMesh& mesh) {
     };
     check(mesh.tetrahedra);
     check(mesh.boundary);
-    for (const auto label : mesh.boundary_patches)
-        if (label >= mesh.patches.size())
-            throw InvalidInput("the stored volume mesh refers to a missing patch");
+    check(mesh.prisms);
+    check(mesh.boundary_sides);
+    for (const PatchLabels* labels : {&mesh.boundary_patches, &mesh.side_patches})
+        for (const auto label : *labels)
+            if (label >= mesh.patches.size())
+                throw InvalidInput("the stored volume mesh refers to a missing patch");
 }
 
 VolumeMesh volume_mesh_from(std::span<const std::byte> bytes) {
@@ -114,6 +126,13 @@ VolumeMesh volume_mesh_from(std::span<const std::byte> bytes) {
     mesh.tetrahedra = read_array<Tetrahedron>(reader, tetrahedra);
     mesh.boundary = read_array<Triangle>(reader, boundary);
     mesh.boundary_patches = read_array<std::uint16_t>(reader, boundary);
+    if (reader.left() > 0) {
+        const auto prisms = reader.get<std::uint64_t>();
+        const auto sides = reader.get<std::uint64_t>();
+        mesh.prisms = read_array<Prism>(reader, prisms);
+        mesh.boundary_sides = read_array<Quadrilateral>(reader, sides);
+        mesh.side_patches = read_array<std::uint16_t>(reader, sides);
+    }
     check_volume_mesh(mesh);
     return mesh;
 }
@@ -195,6 +214,8 @@ Header whole_header(const ScenePart& part, const Content& content) {
     header.kind = static_cast<std::uint8_t>(part.index());
     header.extra = content.extra;
     header.size = content.bytes.size();
+    const auto* mesh = std::get_if<kVolumeMesh>(&part);
+    if (mesh != nullptr && !(*mesh)->prisms.empty()) header.version = kLayersVersion;
     return header;
 }
 
@@ -213,9 +234,9 @@ Header read_header(ByteReader& reader) {
     const auto header = reader.get<Header>();
     if (header.magic != kMagic || header.kind > kVolumeMesh)
         throw InvalidInput("the stored data is damaged: it is not a part of a scene");
-    if (header.version > kVersion)
+    if (header.version > kLayersVersion)
         throw InvalidInput("the stored data has version " + std::to_string(header.version) +
-                           "; this program reads up to " + std::to_string(kVersion));
+                           "; this program reads up to " + std::to_string(kLayersVersion));
     return header;
 }
 
@@ -242,7 +263,8 @@ std::size_t memory_bytes(const ScenePart& part) {
     }
     if (const auto* mesh = std::get_if<kVolumeMesh>(&part))
         return (*mesh)->points.size() * 24 + (*mesh)->tetrahedra.size() * 16 +
-               (*mesh)->boundary.size() * 14;
+               (*mesh)->boundary.size() * 14 + (*mesh)->prisms.size() * 24 +
+               (*mesh)->boundary_sides.size() * 18;
     return content_of(part).bytes.size();
 }
 

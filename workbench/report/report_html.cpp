@@ -102,7 +102,8 @@ Json tiles(const Json& report) {
     add("volume [mm\u00B3]", shown(part_of(after, "volume")));
     add("openings", std::to_string(part_of(report, "openings").size()));
     if (report.contains("volume_mesh"))
-        add("tetrahedra", shown(part_of(report["volume_mesh"], "cells")));
+        add(report["volume_mesh"].contains("prisms") ? "cells" : "tetrahedra",
+            shown(part_of(report["volume_mesh"], "cells")));
     const Json& inlets = part_of(part_of(report, "flow"), "inlets");
     if (!inlets.empty()) add("Reynolds number", shown(part_of(inlets[0], "reynolds")));
     add("warnings", std::to_string(part_of(report, "warnings").size()));
@@ -304,6 +305,10 @@ const std::vector<ReportSection>& usual_sections() {
          .title = "Volume mesh",
          .about =
              "Non-orthogonality, skewness and aspect ratio as defined by OpenFOAM's checkMesh."},
+        {.key = "wall_layers",
+         .title = "Wall layers",
+         .about = "Layers of prisms along the wall, together as thick as wished but where walls "
+                  "are close or curved: limited is below 98 % of that, by the wall's area."},
         {.key = "flow",
          .title = "Flow",
          .about = "Flow in this model, derived from the flow parameters."}};

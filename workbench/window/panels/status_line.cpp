@@ -59,6 +59,8 @@ void draw_figures(PanelContext& c, float end) {
     if (scene->surface) figure(c.ui, end, "Triangles", grouped(scene->surface->triangle_count()));
     if (scene->volume_mesh)
         figure(c.ui, end, "Tetrahedra", grouped(scene->volume_mesh->tetrahedra.size()));
+    if (scene->volume_mesh && !scene->volume_mesh->prisms.empty())
+        figure(c.ui, end, "Prisms", grouped(scene->volume_mesh->prisms.size()));
     const ShownFigures& figures = document.figures();
     const SurfaceChange* change =
         document.previewed() ? &document.previewed()->result().change : nullptr;

@@ -104,7 +104,7 @@ void ClipSection::update_cells(const PanelContext& c) {
     const Scene* scene = c.core.document.shown();
     const bool wanted = plane_ && colours && colours->kind == ColouringKind::TetrahedraQuality &&
                         scene != nullptr && scene->volume_mesh &&
-                        scene->volume_mesh->tetrahedra.size() == colours->values.size();
+                        scene->volume_mesh->cell_count() == colours->values.size();
     if (!wanted) {
         if (cells_) ++version_;
         cells_.reset();

@@ -23,6 +23,10 @@ Positions centroids(const VolumeMesh& mesh) {
     for (const Tetrahedron& t : mesh.tetrahedra)
         points.push_back(
             0.25 * (mesh.points[t[0]] + mesh.points[t[1]] + mesh.points[t[2]] + mesh.points[t[3]]));
+    for (const Prism& prism : mesh.prisms) {
+        points.emplace_back(Vec3::Zero());
+        for (const VertexId v : prism) points.back() += mesh.points[v] / 6.0;
+    }
     return points;
 }
 
@@ -53,7 +57,7 @@ std::vector<WorstPlace> worst_places(std::span<const Vec3> points, std::span<con
     return places;
 }
 
-/// What is coloured: vertices, or the centroids of tetrahedra.
+/// What is coloured: vertices, or the centroids of cells.
 struct WorstTour::Coloured {
     const Scene* scene = nullptr;      ///< of a document; null: the surface is live
     const Surface* surface = nullptr;  ///< null: there is none
