@@ -7,10 +7,12 @@
 
 #include "geometry/formats/comment_line.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
 #include "geometry/kernel/plain_name.h"
 #include "geometry/kernel/whole_file.h"
 #include "geometry/kernel/wording.h"
 #include "meshing/products/inflow.h"
+#include "meshing/products/openfoam_control.h"
 #include "meshing/products/openfoam_mesh.h"
 #include "meshing/products/text_buffer.h"
 
@@ -60,8 +62,6 @@ struct CaseWriter {
     [[nodiscard]] std::string velocity() const;
     [[nodiscard]] std::string pressure() const;
     [[nodiscard]] std::string transport() const;
-    [[nodiscard]] std::string control() const;
-    [[nodiscard]] std::string decomposition() const;
 };
 
 // Directed along the mean inward normal, with an exact mean velocity although a rim is never quite
@@ -131,53 +131,6 @@ std::string CaseWriter::transport() const {
         << parameters.viscosity << " Pa s, density " << parameters.density
         << " kg/m^3\ntransportModel  Newtonian;\n\nnu              [0 2 -1 0 0 0 0] "
         << parameters.viscosity / parameters.density << ";\n";
-    return out.text();
-}
-
-std::string CaseWriter::control() const {
-    TextBuffer out;
-    out << foam_header("dictionary", "system", "controlDict")
-        << "application     simpleFoam;\nstartFrom       latestTime;\nstartTime       0;\nstopAt   "
-           "       endTime;\nendTime         "
-        << parameters.iterations
-        << ";  // most iterations; system/fvSolution ends the run at its residuals\ndeltaT         "
-           " 1;\nwriteControl    timeStep;\nwriteInterval   "
-        << parameters.iterations
-        << ";\npurgeWrite      2;\nwriteFormat     ascii;\nwritePrecision  8;\ntimeFormat      "
-           "general;\ntimePrecision   6;\nrunTimeModifiable false;\n\nfunctions\n{\n"
-        << "    wallShearStress  // kinematic [m^2/s^2]; times " << parameters.density
-        << " for Pa\n    {\n        type            wallShearStress;\n"
-        << "        libs            (\"libfieldFunctionObjects.so\");\n        writeControl    "
-           "writeTime;\n        log             false;\n    }\n";
-    for (const FoamPatch& patch : patches) {
-        if (resting(patch)) continue;
-        for (const bool pressure : {true, false})
-            out << "    " << (pressure ? "pressure_" : "flow_") << patch.name
-                << "\n    {\n        type            surfaceFieldValue;\n"
-                << "        libs            (\"libfieldFunctionObjects.so\");\n        regionType  "
-                   "    patch;\n        name            "
-                << patch.name << ";\n        operation       " << (pressure ? "areaAverage" : "sum")
-                << ";\n        fields          (" << (pressure ? "p" : "phi")
-                << ");\n        writeFields     false;\n        writeControl    timeStep;\n        "
-                   "writeInterval   10;\n        log             false;\n    }\n";
-    }
-    out << "}\n";
-    return out.text();
-}
-
-std::string CaseWriter::decomposition() const {
-    Eigen::AlignedBox3d box;
-    for (const Vec3& p : mesh.points) box.extend(p);
-    Eigen::Index longest = 0;
-    box.sizes().maxCoeff(&longest);
-    TextBuffer out;
-    out << foam_header("dictionary", "system", "decomposeParDict")
-        << "// simple: Debian's scotch is a stub; slices along the longest "
-           "axis\nnumberOfSubdomains "
-        << parameters.processes << ";\n\nmethod          simple;\n\ncoeffs\n{\n    n           (";
-    for (int k = 0; k < 3; ++k)
-        out << (k > 0 ? " " : "") << (k == longest ? parameters.processes : 1);
-    out << ");\n    delta       0.001;\n}\n";
     return out.text();
 }
 
@@ -353,7 +306,8 @@ void write_script(const fs::path& path, bool parallel) {
 }  // namespace
 
 bool is_unused_openfoam_case(const fs::path& folder) {
-    constexpr std::array kOwn = {"0", "constant", "system", "Allrun", "Allrun.parallel", "README"};
+    constexpr std::array kOwn = {"0",      "constant",        "system", kFlowRecordFile,
+                                 "Allrun", "Allrun.parallel", "README"};
     std::error_code error;
     if (!fs::is_regular_file(folder / "system" / "controlDict", error)) return false;
     fs::directory_iterator entries(folder, error);
@@ -385,14 +339,15 @@ void write_openfoam_case(const fs::path& folder, const VolumeMesh& mesh,
     progress.check_cancelled();
     write_file(folder / "system/fvSchemes", schemes(angle));
     write_file(folder / "system/fvSolution", solution(parameters, angle));
-    write_file(folder / "system/decomposeParDict", writer.decomposition());
+    write_file(folder / "system/decomposeParDict",
+               decomposition_dictionary(bounds(mesh.points), parameters.processes));
     write_script(folder / "Allrun", false);
     write_script(folder / "Allrun.parallel", true);
     const std::string line = provenance.empty() ? "" : comment_line(provenance) + "\n";
     write_file(folder / "README", line + readme(mesh, parameters, writer.flows()));
     // Last: it makes the folder a case.
     write_file(folder / "system/controlDict",
-               (line.empty() ? "" : "// " + line) + writer.control());
+               (line.empty() ? "" : "// " + line) + control_dictionary(writer.patches, parameters));
 }
 
 }  // namespace vesselbench

@@ -1,0 +1,145 @@
+#include "workbench/flow/flow_record.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+
+#include <nlohmann/json.hpp>
+
+#include "geometry/kernel/errors.h"
+#include "geometry/kernel/whole_file.h"
+#include "meshing/products/openfoam_case.h"
+#include "meshing/products/openfoam_mesh.h"
+#include "workbench/case/json_fields.h"
+#include "workbench/case/json_text.h"
+#include "workbench/project/content_hash.h"
+
+namespace vesselbench {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+/// By their names, whatever else a solver's tools leave beside them.
+constexpr std::array kMeshFiles = {"boundary", "faces", "neighbour", "owner", "points"};
+
+std::string mesh_digest(const fs::path& folder) {
+    ContentHash hash;
+    for (const char* name : kMeshFiles) {
+        const std::string bytes = file_content(folder / "constant" / "polyMesh" / name);
+        hash.add(std::as_bytes(std::span(bytes)));
+    }
+    return hash.hex();
+}
+
+RecordedOpening recorded(const PatchMeasures& patch, const FlowSummary& summary) {
+    RecordedOpening opening{.name = foam_word(patch.name),
+                            .kind = patch.kind,
+                            .area = patch.area,
+                            .diameter = 2.0 * std::sqrt(patch.area / std::numbers::pi)};
+    const auto inlet = std::ranges::find(summary.inlets, patch.name, &InletFlow::name);
+    if (inlet == summary.inlets.end()) return opening;
+    opening.flow = inlet->flow;
+    opening.reynolds = inlet->reynolds;
+    return opening;
+}
+
+FlowRecord record_of(const fs::path& folder, const VolumeMesh& mesh,
+                     const CfdParameters& parameters, const std::string& provenance) {
+    const Surface surface = boundary_surface(mesh);
+    const FlowSummary summary = flow_summary(surface, parameters);
+    FlowRecord record{.provenance = provenance,
+                      .mesh = mesh_digest(folder),
+                      .cells = mesh.tetrahedra.size(),
+                      .bounds = bounds(mesh.points),
+                      .density = parameters.density,
+                      .viscosity = parameters.viscosity,
+                      .parabolic = parameters.profile == InflowProfile::Parabolic,
+                      .walls = {},
+                      .openings = {}};
+    for (const PatchMeasures& patch : measure_patches(surface)) {
+        if (patch.kind == PatchKind::Wall) record.walls.push_back(foam_word(patch.name));
+        if (patch.kind == PatchKind::Inlet || patch.kind == PatchKind::Outlet)
+            record.openings.push_back(recorded(patch, summary));
+    }
+    return record;
+}
+
+Json to_json(const FlowRecord& record) {
+    const auto& [least, most] = record.bounds;
+    Json openings = Json::array();
+    for (const RecordedOpening& opening : record.openings) {
+        Json row = {{"name", opening.name},
+                    {"kind", to_string(opening.kind)},
+                    {"area_mm2", opening.area},
+                    {"diameter_mm", opening.diameter}};
+        if (opening.flow) row["flow_cm3_s"] = *opening.flow;
+        if (opening.reynolds) row["reynolds"] = *opening.reynolds;
+        openings.push_back(std::move(row));
+    }
+    return {{"provenance", record.provenance},
+            {"mesh_sha256", record.mesh},
+            {"cells", record.cells},
+            {"bounds_mm", {least.x(), least.y(), least.z(), most.x(), most.y(), most.z()}},
+            {"density_kg_m3", record.density},
+            {"viscosity_pa_s", record.viscosity},
+            {"profile", record.parabolic ? "parabolic" : "plug"},
+            {"walls", record.walls},
+            {"openings", openings}};
+}
+
+RecordedOpening opening_from(const Json& json, const std::string& place) {
+    JsonFields fields(json, place);
+    return {.name = fields.required<std::string>("name"),
+            .kind = patch_kind_from(fields.required<std::string>("kind")),
+            .area = fields.required<double>("area_mm2"),
+            .diameter = fields.required<double>("diameter_mm"),
+            .flow = fields.optional<double>("flow_cm3_s"),
+            .reynolds = fields.optional<double>("reynolds")};
+}
+
+FlowRecord record_from(const Json& json) {
+    JsonFields fields(json, kFlowRecordFile);
+    const auto box = fields.required<std::array<double, 6>>("bounds_mm");
+    FlowRecord record{.provenance = fields.optional<std::string>("provenance").value_or(""),
+                      .mesh = fields.required<std::string>("mesh_sha256"),
+                      .cells = fields.required<std::size_t>("cells"),
+                      .bounds = {Vec3(box[0], box[1], box[2]), Vec3(box[3], box[4], box[5])},
+                      .density = fields.required<double>("density_kg_m3"),
+                      .viscosity = fields.required<double>("viscosity_pa_s"),
+                      .parabolic = fields.required<std::string>("profile") == "parabolic",
+                      .walls = fields.required<std::vector<std::string>>("walls"),
+                      .openings = {}};
+    const Json* openings = fields.child("openings");
+    if (openings != nullptr && openings->is_array())
+        for (const Json& opening : *openings)
+            record.openings.push_back(opening_from(opening, fields.place_of("openings")));
+    if (record.walls.empty() || record.openings.empty())
+        throw InvalidInput(std::string(kFlowRecordFile) + " lists no wall, or no openings");
+    return record;
+}
+
+}  // namespace
+
+void write_flow_record(const fs::path& folder, const VolumeMesh& mesh,
+                       const CfdParameters& parameters, const std::string& provenance) {
+    const FlowRecord record = record_of(folder, mesh, parameters, provenance);
+    write_file(folder / kFlowRecordFile, text_from_json(to_json(record), 2) + "\n");
+}
+
+FlowRecord read_flow_record(const fs::path& folder) {
+    if (!fs::is_regular_file(folder / kFlowRecordFile))
+        throw InvalidInput("'" + bare_name(folder) + "' has no " + kFlowRecordFile +
+                           ", as cases of this version have: export it again");
+    return record_from(json_from_file(folder / kFlowRecordFile));
+}
+
+void require_recorded_mesh(const fs::path& folder, const FlowRecord& record) {
+    if (mesh_digest(folder) != record.mesh)
+        throw InvalidInput("'" + bare_name(folder) + "' holds another mesh than the one that it " +
+                           "was exported with: export it again, and run it");
+}
+
+}  // namespace vesselbench

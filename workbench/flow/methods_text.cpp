@@ -1,0 +1,76 @@
+#include "workbench/flow/methods_text.h"
+
+#include <algorithm>
+
+#include "geometry/kernel/wording.h"
+
+namespace vesselbench {
+
+namespace {
+
+std::string inlets_text(const FlowResults& results) {
+    std::vector<std::string> texts;
+    for (const OpeningFigures& opening : results.openings) {
+        const RecordedOpening& recorded = opening.recorded;
+        if (recorded.kind != PatchKind::Inlet) continue;
+        std::string text = recorded.name + formatted(opening.flow, " (%.4g ml/s") +
+                           formatted(recorded.diameter, ", diameter %.3g mm");
+        if (recorded.reynolds) text += formatted(*recorded.reynolds, ", Reynolds number %.0f");
+        texts.push_back(text + ")");
+    }
+    return enumerated(texts);
+}
+
+std::string end_text(const FlowResults& results) {
+    const SettlingLimits limits;
+    if (results.settling.settled)
+        return "The iterations ended when pressures, flows and the mean wall shear stress had "
+               "changed by less than" +
+               formatted(100.0 * limits.change, " %g %%") + " over " +
+               std::to_string(limits.window) + " iterations and all initial residuals were below" +
+               formatted(limits.residual, " %g") + ": after " + time_name(results.time) +
+               " iterations (largest residual" + formatted(results.settling.residual, " %.1e") +
+               ").";
+    return results.converged
+               ? "The iterations ended when the residual control was reached: after " +
+                     time_name(results.time) + " iterations."
+               : "The solution had NOT converged when it ended after " + time_name(results.time) +
+                     " iterations (largest residual" +
+                     formatted(results.settling.residual, " %.1e") + ").";
+}
+
+}  // namespace
+
+std::string methods_text(const FlowResults& results) {
+    const FlowRecord& record = results.flow.record;
+    return "The flow was computed as steady, laminar flow of an incompressible Newtonian fluid "
+           "(density" +
+           formatted(record.density, " %g kg/m^3") + ", dynamic viscosity" +
+           formatted(record.viscosity, " %g Pa s") +
+           ") through rigid walls without slip, with the finite-volume solver simpleFoam of " +
+           results.solver + " [1] (SIMPLEC algorithm [2], second-order schemes), on a mesh of " +
+           std::to_string(record.cells) + " cells. " +
+           (record.parabolic ? "The profile of developed laminar flow" : "A uniform velocity") +
+           " was prescribed at " + inlets_text(results) +
+           "; the pressure was 0 at all outlets, where backflow entered at rest. " +
+           end_text(results) + " The imbalance of mass was" +
+           formatted(100.0 * results.imbalance, " %.2g %%") +
+           " of the inflow. Wall shear stress is the tangential stress that the blood exerts on "
+           "the "
+           "wall; means and percentiles are weighted by area. It is of a steady flow, and no "
+           "average "
+           "over a cardiac cycle. Low wall shear stress is below" +
+           formatted(kLowShear, " %g Pa [3].");
+}
+
+std::vector<std::string> method_references() {
+    return {
+        "Weller HG, Tabor G, Jasak H, Fureby C. A tensorial approach to computational continuum "
+        "mechanics using object-oriented techniques. Computers in Physics 12 (1998), 620-631.",
+        "Van Doormaal JP, Raithby GD. Enhancements of the SIMPLE method for predicting "
+        "incompressible fluid flows. Numerical Heat Transfer 7 (1984), 147-163.",
+        "Malek AM, Alper SL, Izumo S. Hemodynamic shear stress and its role in atherosclerosis. "
+        "JAMA 282 (1999), 2035-2042."};
+}
+
+}  // namespace vesselbench
