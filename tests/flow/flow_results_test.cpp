@@ -1,9 +1,9 @@
 #include "workbench/flow/flow_results.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <numbers>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -109,6 +109,26 @@ SCENARIO("Planted fields give their own figures, without a solver", "[flow][resu
     THEN("the flow has settled") {
         CHECK(results.converged);
     }
+}
+
+SCENARIO("Beyond the ends that were made, the wall is not the vessel's own", "[flow][results]") {
+    const std::string folder = solved_case(1000.0);
+    const double half_a_diameter = kRadius, cut = 7.0;
+    write_flow_record(
+        folder, tube_mesh(), {}, "",
+        {{.centre = Vec3(0, 0, cut), .outward = Vec3(0, 0, 1), .diameter = 2 * kRadius}});
+    double area = 0.0;
+    for (std::size_t b = 0; b < tube_mesh().boundary.size(); ++b) {
+        const Triangle& triangle = tube_mesh().boundary[b];
+        const bool own = std::ranges::all_of(triangle, [](VertexId v) {
+            return tube_mesh().points[v].z() <= cut - half_a_diameter;
+        });
+        if (tube_mesh().boundary_patches[b] == 0 && own)
+            area += triangle_area(tube_mesh().points, triangle);
+    }
+    const FlowResults results = results_in(folder);
+    CHECK(results.shear.area == Approx(area).epsilon(kTolerance));
+    CHECK(results.shear.largest < 1.0 + cut - half_a_diameter);
 }
 
 SCENARIO("What flows in and not out is the imbalance", "[flow][results]") {

@@ -31,6 +31,7 @@
 #include "workbench/review/provenance.h"
 #include "workbench/review/review.h"
 #include "workbench/session/export_record.h"
+#include "workbench/session/source_counterpart.h"
 #include "workbench/session/stored_texts.h"
 
 namespace vesselbench {
@@ -200,7 +201,8 @@ void export_project(const ExportArguments& arguments, const Progress& progress) 
     const ExportOptions options{
         .flow = flow_in_vessel(flow.parameters(), log),
         .provenance = provenance(session, variant, review),
-        .shown = shown_contents(arguments, session, variant, scene, progress.part(0.6, 0.7))};
+        .shown = shown_contents(arguments, session, variant, scene, progress.part(0.6, 0.7)),
+        .ends = made_ends(session, variant, progress.silent())};
     PendingFiles files;
     export_scene(files, arguments.file, scene, options, progress.part(0.7, 1.0));
     progress.check_cancelled();

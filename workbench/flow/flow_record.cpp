@@ -1,8 +1,6 @@
 #include "workbench/flow/flow_record.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <span>
 
 #include <nlohmann/json.hpp>
@@ -13,6 +11,8 @@
 #include "meshing/products/openfoam_mesh.h"
 #include "workbench/case/json_fields.h"
 #include "workbench/case/json_text.h"
+#include "workbench/case/measure_json.h"
+#include "workbench/case/point_json.h"
 #include "workbench/project/content_hash.h"
 
 namespace vesselbench {
@@ -38,7 +38,7 @@ RecordedOpening recorded(const PatchMeasures& patch, const FlowSummary& summary)
     RecordedOpening opening{.name = foam_word(patch.name),
                             .kind = patch.kind,
                             .area = patch.area,
-                            .diameter = 2.0 * std::sqrt(patch.area / std::numbers::pi)};
+                            .diameter = diameter_of_area(patch.area)};
     const auto inlet = std::ranges::find(summary.inlets, patch.name, &InletFlow::name);
     if (inlet == summary.inlets.end()) return opening;
     opening.flow = inlet->flow;
@@ -47,7 +47,8 @@ RecordedOpening recorded(const PatchMeasures& patch, const FlowSummary& summary)
 }
 
 FlowRecord record_of(const fs::path& folder, const VolumeMesh& mesh,
-                     const CfdParameters& parameters, const std::string& provenance) {
+                     const CfdParameters& parameters, const std::string& provenance,
+                     const std::vector<MadeEnd>& ends) {
     const Surface surface = boundary_surface(mesh);
     const FlowSummary summary = flow_summary(surface, parameters);
     FlowRecord record{.provenance = provenance,
@@ -58,7 +59,8 @@ FlowRecord record_of(const fs::path& folder, const VolumeMesh& mesh,
                       .viscosity = parameters.viscosity,
                       .parabolic = parameters.profile == InflowProfile::Parabolic,
                       .walls = {},
-                      .openings = {}};
+                      .openings = {},
+                      .ends = ends};
     for (const PatchMeasures& patch : measure_patches(surface)) {
         if (patch.kind == PatchKind::Wall) record.walls.push_back(foam_word(patch.name));
         if (patch.kind == PatchKind::Inlet || patch.kind == PatchKind::Outlet)
@@ -69,7 +71,11 @@ FlowRecord record_of(const fs::path& folder, const VolumeMesh& mesh,
 
 Json to_json(const FlowRecord& record) {
     const auto& [least, most] = record.bounds;
-    Json openings = Json::array();
+    Json openings = Json::array(), ends = Json::array();
+    for (const MadeEnd& end : record.ends)
+        ends.push_back({{"centre_mm", point_json(end.centre)},
+                        {"outward", point_json(end.outward)},
+                        {"diameter_mm", end.diameter}});
     for (const RecordedOpening& opening : record.openings) {
         Json row = {{"name", opening.name},
                     {"kind", to_string(opening.kind)},
@@ -87,7 +93,8 @@ Json to_json(const FlowRecord& record) {
             {"viscosity_pa_s", record.viscosity},
             {"profile", record.parabolic ? "parabolic" : "plug"},
             {"walls", record.walls},
-            {"openings", openings}};
+            {"openings", openings},
+            {"ends", ends}};
 }
 
 RecordedOpening opening_from(const Json& json, const std::string& place) {
@@ -100,22 +107,41 @@ RecordedOpening opening_from(const Json& json, const std::string& place) {
             .reynolds = fields.optional<double>("reynolds")};
 }
 
+Vec3 vector_from(const std::array<double, 3>& xyz) {
+    return {xyz[0], xyz[1], xyz[2]};
+}
+
+MadeEnd end_from(const Json& json, const std::string& place) {
+    JsonFields fields(json, place);
+    return {.centre = vector_from(fields.required<std::array<double, 3>>("centre_mm")),
+            .outward = vector_from(fields.required<std::array<double, 3>>("outward")),
+            .diameter = fields.required<double>("diameter_mm")};
+}
+
+/// The entries of a list, each read by `read`; none if there is no list.
+template <class Entry>
+std::vector<Entry> list_from(JsonFields& fields, const char* key,
+                             Entry (*read)(const Json&, const std::string&)) {
+    std::vector<Entry> entries;
+    const Json* list = fields.child(key);
+    if (list != nullptr && list->is_array())
+        for (const Json& entry : *list) entries.push_back(read(entry, fields.place_of(key)));
+    return entries;
+}
+
 FlowRecord record_from(const Json& json) {
     JsonFields fields(json, kFlowRecordFile);
     const auto box = fields.required<std::array<double, 6>>("bounds_mm");
-    FlowRecord record{.provenance = fields.optional<std::string>("provenance").value_or(""),
-                      .mesh = fields.required<std::string>("mesh_sha256"),
-                      .cells = fields.required<std::size_t>("cells"),
-                      .bounds = {Vec3(box[0], box[1], box[2]), Vec3(box[3], box[4], box[5])},
-                      .density = fields.required<double>("density_kg_m3"),
-                      .viscosity = fields.required<double>("viscosity_pa_s"),
-                      .parabolic = fields.required<std::string>("profile") == "parabolic",
-                      .walls = fields.required<std::vector<std::string>>("walls"),
-                      .openings = {}};
-    const Json* openings = fields.child("openings");
-    if (openings != nullptr && openings->is_array())
-        for (const Json& opening : *openings)
-            record.openings.push_back(opening_from(opening, fields.place_of("openings")));
+    const FlowRecord record{.provenance = fields.optional<std::string>("provenance").value_or(""),
+                            .mesh = fields.required<std::string>("mesh_sha256"),
+                            .cells = fields.required<std::size_t>("cells"),
+                            .bounds = {Vec3(box[0], box[1], box[2]), Vec3(box[3], box[4], box[5])},
+                            .density = fields.required<double>("density_kg_m3"),
+                            .viscosity = fields.required<double>("viscosity_pa_s"),
+                            .parabolic = fields.required<std::string>("profile") == "parabolic",
+                            .walls = fields.required<std::vector<std::string>>("walls"),
+                            .openings = list_from(fields, "openings", &opening_from),
+                            .ends = list_from(fields, "ends", &end_from)};
     if (record.walls.empty() || record.openings.empty())
         throw InvalidInput(std::string(kFlowRecordFile) + " lists no wall, or no openings");
     return record;
@@ -124,8 +150,9 @@ FlowRecord record_from(const Json& json) {
 }  // namespace
 
 void write_flow_record(const fs::path& folder, const VolumeMesh& mesh,
-                       const CfdParameters& parameters, const std::string& provenance) {
-    const FlowRecord record = record_of(folder, mesh, parameters, provenance);
+                       const CfdParameters& parameters, const std::string& provenance,
+                       const std::vector<MadeEnd>& ends) {
+    const FlowRecord record = record_of(folder, mesh, parameters, provenance, ends);
     write_file(folder / kFlowRecordFile, text_from_json(to_json(record), 2) + "\n");
 }
 

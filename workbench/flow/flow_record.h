@@ -10,6 +10,7 @@
 #include "geometry/kernel/measure.h"
 #include "meshing/products/cfd_parameters.h"
 #include "meshing/tetrahedra/volume_mesh.h"
+#include "workbench/session/source_counterpart.h"
 
 namespace vesselbench {
 
@@ -34,12 +35,17 @@ struct FlowRecord {
     bool parabolic = true;           ///< profile at the inlets; else plug
     std::vector<std::string> walls;  ///< names of the patches
     std::vector<RecordedOpening> openings;
+    /// Where the vessel was cut and extended: beyond them, the wall is not its own. Empty: not
+    /// known.
+    std::vector<MadeEnd> ends;
 };
 
 /// Writes flow.json into the folder of a case, which is complete otherwise.
+/// \param ends where the vessel was cut and extended
 /// \throw IoError, AlgorithmFailure as flow_summary()
 void write_flow_record(const std::filesystem::path& folder, const VolumeMesh& mesh,
-                       const CfdParameters& parameters, const std::string& provenance);
+                       const CfdParameters& parameters, const std::string& provenance,
+                       const std::vector<MadeEnd>& ends = {});
 
 /// \throw InvalidInput if the case has none, or a damaged one
 [[nodiscard]] FlowRecord read_flow_record(const std::filesystem::path& folder);

@@ -43,6 +43,17 @@ const Field& field_of(const std::map<std::string, Field>& fields, const char* na
     return found->second;
 }
 
+/// The areas of the triangles between the made ends, and 0 for the others. All of them are taken
+/// if there is nothing between the ends.
+std::vector<double> own_areas_of(const FlowWall& wall, const std::vector<MadeEnd>& ends) {
+    std::vector<double> areas = wall.areas;
+    const std::vector<std::uint8_t> own = comparable_vertices(wall.surface, ends);
+    for (TriangleId t = 0; t < wall.surface.triangle_count(); ++t)
+        for (const VertexId v : wall.surface.triangles()[t])
+            if (own[v] == 0) areas[t] = 0.0;
+    return std::ranges::max(areas) > 0.0 ? areas : wall.areas;
+}
+
 FlowWall wall_of(const FlowCase& flow, double time) {
     FoamPatchFields fields;
     for (const std::string& wall : flow.record.walls)
@@ -57,6 +68,7 @@ FlowWall wall_of(const FlowCase& flow, double time) {
     for (const Triangle& triangle : fields.triangles)
         wall.areas.push_back(triangle_area(fields.points, triangle));
     wall.surface = make_surface(std::move(fields.points), std::move(fields.triangles));
+    wall.own_areas = own_areas_of(wall, flow.record.ends);
     return wall;
 }
 
@@ -135,6 +147,7 @@ ShearFigures shear_figures(const std::vector<double>& values, const std::vector<
         figures.area += areas[i];
         figures.mean += areas[i] * values[i];
         if (values[i] < kLowShear) figures.low_area += areas[i];
+        if (areas[i] > 0.0) figures.largest = std::max(figures.largest, values[i]);
     }
     if (figures.area > 0.0) figures.mean /= figures.area;
     const auto below = [&](double share) { return weighted_percentile(values, areas, share); };
@@ -143,7 +156,6 @@ ShearFigures shear_figures(const std::vector<double>& values, const std::vector<
     figures.median = below(0.5);
     figures.p95 = below(0.95);
     figures.p99 = below(0.99);
-    figures.largest = std::ranges::max(values);
     return figures;
 }
 
@@ -168,7 +180,7 @@ FlowResults read_flow_results(const FlowCase& flow) {
                            time_name(*time) + ": run the case again");
     results.settling = settling_of(results.history, flow.record);
     results.converged = results.settling.settled || has_reached_residuals(flow.folder);
-    results.shear = shear_figures(magnitudes(results.wall.shear), results.wall.areas);
+    results.shear = shear_figures(magnitudes(results.wall.shear), results.wall.own_areas);
     results.openings = openings_of(results);
     results.pressure_drop = pressure_drop(results.history, flow.record);
     results.imbalance = imbalance_of(results);

@@ -13,10 +13,11 @@ namespace vesselbench {
 
 /// The wall of a solved case with what the blood does to it.
 struct FlowWall {
-    Surface surface;               ///< [mm], triangles outward
-    std::vector<Vec3> shear;       ///< stress that the blood exerts on the wall, #T [Pa]
-    std::vector<double> pressure;  ///< static, relative to the outlets', #T [Pa]
-    std::vector<double> areas;     ///< #T [mm^2]
+    Surface surface;                ///< [mm], triangles outward
+    std::vector<Vec3> shear;        ///< stress that the blood exerts on the wall, #T [Pa]
+    std::vector<double> pressure;   ///< static, relative to the outlets', #T [Pa]
+    std::vector<double> areas;      ///< #T [mm^2]
+    std::vector<double> own_areas;  ///< the same; 0 where the wall is not the vessel's own [mm^2]
 };
 
 /// Magnitudes of the wall shear stress over a region, weighted by area [Pa].
@@ -45,7 +46,7 @@ struct FlowResults {
     bool converged = false;  ///< by figures or residuals
     std::string solver;      ///< "OpenFOAM 1912"; "OpenFOAM" where its log is missing
     FlowWall wall;
-    ShearFigures shear;
+    ShearFigures shear;  ///< of the vessel's own wall: without what was cut and extended
     std::vector<OpeningFigures> openings;
     double pressure_drop = 0.0;  ///< [Pa]
     double imbalance = 0.0;      ///< what flows in and not out, as a fraction of the inflow [-]

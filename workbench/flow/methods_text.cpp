@@ -57,7 +57,9 @@ std::string methods_text(const FlowResults& results) {
            formatted(100.0 * results.imbalance, " %.2g %%") +
            " of the inflow. Wall shear stress is the tangential stress that the blood exerts on "
            "the "
-           "wall; means and percentiles are weighted by area. It is of a steady flow, and no "
+           "wall; means and percentiles are weighted by area, over the vessel's own wall without "
+           "its "
+           "extensions. It is of a steady flow, and no "
            "average "
            "over a cardiac cycle. Low wall shear stress is below" +
            formatted(kLowShear, " %g Pa [3].");

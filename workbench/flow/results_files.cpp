@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/formats/vtk_mesh.h"
+#include "geometry/kernel/errors.h"
 #include "geometry/kernel/pending_files.h"
 #include "gpu/colours.h"
 #include "meshing/products/glb.h"
