@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "geometry/formats/comment_line.h"
@@ -45,6 +46,14 @@ struct CaseWriter {
 
     [[nodiscard]] double flow_through(const FoamPatch& inlet) const {  // [cm^3/s]
         return std::ranges::find(flow.inlets, inlet.name, &InletFlow::name)->flow;
+    }
+
+    /// The flow that is given for an outlet [cm^3/s]; none: what the pressures make of it.
+    [[nodiscard]] std::optional<double> given_outflow(const FoamPatch& patch) const {
+        const auto& all = flow.outflows;
+        const auto found =
+            std::ranges::find(all, mesh.patches[patch.index].name, &GivenOutflow::name);
+        return found == all.end() ? std::nullopt : std::optional(found->flow);
     }
 
     [[nodiscard]] std::string flows() const {  // for comments
@@ -98,6 +107,10 @@ std::string CaseWriter::velocity() const {
             out << "        type            noSlip;\n";
         else if (patch.kind == PatchKind::Inlet)
             put_inflow(out, patch);
+        else if (const auto given = given_outflow(patch))
+            out << "        type            flowRateOutletVelocity;\n        "
+                   "volumetricFlowRate constant "
+                << *given * 1e-6 << ";\n        value           uniform (0 0 0);\n";
         else
             out << "        type            inletOutlet;\n        inletValue      uniform (0 0 "
                    "0);\n        value           uniform (0 0 0);\n";
@@ -115,7 +128,7 @@ std::string CaseWriter::pressure() const {
            "0;\n\nboundaryField\n{\n";
     for (const FoamPatch& patch : patches) {
         out << "    " << patch.name << "\n    {\n";
-        if (patch.kind == PatchKind::Outlet)
+        if (patch.kind == PatchKind::Outlet && !given_outflow(patch))
             out << "        type            fixedValue;\n        value           uniform 0;\n";
         else
             out << "        type            zeroGradient;\n";
@@ -127,10 +140,20 @@ std::string CaseWriter::pressure() const {
 
 std::string CaseWriter::transport() const {
     TextBuffer out;
-    out << foam_header("dictionary", "constant", "transportProperties") << "// dynamic viscosity "
-        << parameters.viscosity << " Pa s, density " << parameters.density
-        << " kg/m^3\ntransportModel  Newtonian;\n\nnu              [0 2 -1 0 0 0 0] "
-        << parameters.viscosity / parameters.density << ";\n";
+    out << foam_header("dictionary", "constant", "transportProperties");
+    if (parameters.viscosity_model == ViscosityModel::Newtonian)
+        out << "// dynamic viscosity " << parameters.viscosity << " Pa s, density "
+            << parameters.density
+            << " kg/m^3\ntransportModel  Newtonian;\n\nnu              [0 2 -1 0 0 0 0] "
+            << parameters.viscosity / parameters.density << ";\n";
+    else
+        out << "// Carreau: Cho, Kensey 1991; density " << parameters.density
+            << " kg/m^3\ntransportModel  BirdCarreau;\n\nBirdCarreauCoeffs\n{\n"
+               "    nu0             [0 2 -1 0 0 0 0] "
+            << carreau::kAtRest / parameters.density << ";\n    nuInf           [0 2 -1 0 0 0 0] "
+            << carreau::kAtShear / parameters.density << ";\n    k               [0 0 1 0 0 0 0] "
+            << carreau::kTime << ";\n    n               [0 0 0 0 0 0 0] " << carreau::kExponent
+            << ";\n}\n";
     return out.text();
 }
 
@@ -268,9 +291,14 @@ std::string readme(const VolumeMesh& mesh, const CfdParameters& parameters,
     TextBuffer out;
     out << "OpenFOAM case of steady laminar blood flow, written by vesselbench.\n\n"
         << "  " << mesh.tetrahedra.size() << " tetrahedra; lengths in metres; density "
-        << parameters.density << " kg/m^3, viscosity " << parameters.viscosity << " Pa s; " << flows
-        << "\n"
-        << "  no-slip walls; outlets at pressure 0, backflow enters at rest\n\n"
+        << parameters.density << " kg/m^3, viscosity " << viscosity_at_shear(parameters)
+        << (parameters.viscosity_model == ViscosityModel::Carreau
+                ? " Pa s at high shear rates (Carreau); "
+                : " Pa s; ")
+        << flows << "\n"
+        << (parameters.outlets == OutletFlow::ZeroPressure
+                ? "  no-slip walls; outlets at pressure 0, backflow enters at rest\n\n"
+                : "  no-slip walls; outlets with given flows, the largest at pressure 0\n\n")
         << "  ./Allrun           checkMesh and simpleFoam on one core\n"
         << "  ./Allrun.parallel  decomposePar, mpirun -np " << parameters.processes
         << " simpleFoam -parallel, reconstructPar\n\n"

@@ -12,6 +12,6 @@ namespace vesselbench {
 [[nodiscard]] std::string methods_text(const FlowResults& results);
 
 /// Its references, in their order.
-[[nodiscard]] std::vector<std::string> method_references();
+[[nodiscard]] std::vector<std::string> method_references(const FlowResults& results);
 
 }  // namespace vesselbench

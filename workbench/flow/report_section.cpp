@@ -47,7 +47,7 @@ Json section_texts(const FlowResults& results, const std::vector<ReportPicture>&
             {"pictures", gallery},
             {"not_converged", !results.converged},
             {"methods", methods_text(results)},
-            {"references", method_references()}};
+            {"references", method_references(results)}};
 }
 
 /// The page with another section; the page itself if it has no place for one.

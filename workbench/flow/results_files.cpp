@@ -77,7 +77,7 @@ void write_wall_glb(const FlowResults& results, const std::string& path) {
 std::string methods_file(const FlowResults& results) {
     std::string text = methods_text(results) + "\n";
     int number = 0;
-    for (const std::string& reference : method_references())
+    for (const std::string& reference : method_references(results))
         text += "\n[" + std::to_string(++number) + "] " + reference;
     return text + "\n";
 }

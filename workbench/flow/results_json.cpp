@@ -28,7 +28,7 @@ Json case_json(const FlowResults& results) {
             {"cells", record.cells},
             {"density_kg_m3", record.density},
             {"viscosity_pa_s", record.viscosity},
-            {"viscosity_model", "Newtonian"},
+            {"viscosity_model", record.carreau ? "Carreau" : "Newtonian"},
             {"profile", record.parabolic ? "parabolic" : "plug"}};
 }
 
@@ -93,7 +93,7 @@ Json results_json(const FlowResults& results) {
     return {{"program_version", version()},       {"case", case_json(results)},
             {"solution", solution_json(results)}, {"figures", figures},
             {"definitions", definitions},         {"openings", openings},
-            {"methods", methods_text(results)},   {"references", method_references()}};
+            {"methods", methods_text(results)},   {"references", method_references(results)}};
 }
 
 std::string history_csv(const FlowHistory& history) {
