@@ -161,6 +161,24 @@ SCENARIO("A solver that fails is reported with its last lines", "[flow][run]") {
     CHECK_THAT(run.err, Contains("FOAM FATAL ERROR: | the flux is too large"));
 }
 
+SCENARIO("Carreau's blood loses more pressure than at high shear rates alone", "[flow][run]") {
+    if (!has_openfoam()) return;
+    const VolumeMesh mesh = tetrahedralized(fine_tube(kRadius, kLength, 18), {}).mesh;
+    const auto shear = [&](const char* name, const CfdParameters& parameters) {
+        const std::string folder = temporary_folder() + "/" + name;
+        write_case(folder, mesh, parameters);
+        const ProgramRun run = run_case(folder, "", {"--json"});
+        CAPTURE(run.err);
+        REQUIRE(run.exit_code == 0);
+        return Json::parse(run.out)["figures"]["wall_shear_mean_pa"].get<double>();
+    };
+    const double thin = shear("thin", {.viscosity = carreau::kAtShear});
+    const double blood = shear("carreau", {.viscosity_model = ViscosityModel::Carreau});
+    // A wall shear rate of 4 Q / (pi R^3) = 191 1/s: Carreau's viscosity there is 0.00428 Pa s.
+    CHECK(blood > 1.1 * thin);
+    CHECK(blood < 1.6 * thin);
+}
+
 SCENARIO("A flow that uses up its iterations has not converged", "[flow][run]") {
     if (!has_openfoam()) return;
     const std::string folder = temporary_folder() + "/tube";

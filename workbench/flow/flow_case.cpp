@@ -9,6 +9,7 @@
 #include "geometry/kernel/whole_file.h"
 #include "geometry/kernel/wording.h"
 #include "workbench/case/purposes.h"
+#include "workbench/project/project.h"
 
 namespace vesselbench {
 
@@ -55,10 +56,12 @@ bool is_whole_time(const fs::path& time) {
 
 }  // namespace
 
-FlowCase find_flow_case(const fs::path& folder) {
-    const std::string name = bare_name(fs::absolute(folder).lexically_normal());
+FlowCase find_flow_case(const fs::path& place) {
+    const std::string name = bare_name(fs::absolute(place).lexically_normal());
     std::error_code error;
-    if (!fs::exists(folder, error)) throw InvalidInput("there is no folder '" + name + "'");
+    if (!fs::exists(place, error)) throw InvalidInput("there is no folder '" + name + "'");
+    const bool is_project = fs::is_regular_file(place, error) && is_project_file(place);
+    const fs::path folder = is_project ? fs::absolute(place).parent_path() : place;
     FlowCase found;
     if (is_case(folder)) found.folder = folder;
     for (const Purpose& purpose : purposes())

@@ -15,8 +15,9 @@ struct FlowCase {
 };
 
 /// The case in a folder: an exported one itself, or the product of a preparation.
+/// \param place the folder, or the project of a preparation
 /// \throw InvalidInput if there is none, or it is not as it was exported
-[[nodiscard]] FlowCase find_flow_case(const std::filesystem::path& folder);
+[[nodiscard]] FlowCase find_flow_case(const std::filesystem::path& place);
 
 /// The last time above 0 of a case, or of a part of it, that was written whole; none: it has none.
 [[nodiscard]] std::optional<double> last_whole_time(const std::filesystem::path& folder);
