@@ -113,7 +113,7 @@ SCENARIO("Planted fields give their own figures, without a solver", "[flow][resu
 
 SCENARIO("Beyond the ends that were made, the wall is not the vessel's own", "[flow][results]") {
     const std::string folder = solved_case(1000.0);
-    const double half_a_diameter = kRadius, cut = 7.0;
+    constexpr double half_a_diameter = kRadius, cut = 7.0;
     write_flow_record(
         folder, tube_mesh(), {}, "",
         {{.centre = Vec3(0, 0, cut), .outward = Vec3(0, 0, 1), .diameter = 2 * kRadius}});

@@ -28,14 +28,16 @@ constexpr double kDiverged = 0.9;
 constexpr std::size_t kFirstIterations = 30;
 
 void require_openfoam() {
-    if (!is_installed("simpleFoam"))
+    if (installed_program("simpleFoam").empty())
         throw AlgorithmFailure(
             "OpenFOAM is not installed: the case is complete, and `vesselbench run` runs it after "
             "`apt install openfoam`");
 }
 
 int useful_processes(const FlowRecord& record, int asked) {
-    if (asked == 1 || !is_installed("mpirun") || !is_installed("decomposePar")) return 1;
+    if (asked == 1 || installed_program("mpirun").empty() ||
+        installed_program("decomposePar").empty())
+        return 1;
     if (asked > 1) return asked;
     const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
     return static_cast<int>(std::clamp<std::size_t>(record.cells / kCellsForProcess, 1, cores));

@@ -71,12 +71,15 @@ std::vector<std::string> solver_environment() {
 
 }  // namespace
 
-bool is_installed(const std::string& program) {
+fs::path installed_program(const std::string& name) {
     const char* path = std::getenv("PATH");
     std::istringstream folders(path == nullptr ? "" : path);
-    for (std::string folder; std::getline(folders, folder, ':');)
-        if (::access((fs::path(folder) / program).c_str(), X_OK) == 0) return true;
-    return false;
+    for (std::string folder; std::getline(folders, folder, ':');) {
+        std::error_code ignored;
+        const fs::path file = fs::path(folder) / name;
+        if (fs::is_regular_file(file, ignored) && ::access(file.c_str(), X_OK) == 0) return file;
+    }
+    return {};
 }
 
 void run_solver(const fs::path& folder, const std::vector<std::string>& command,

@@ -9,8 +9,8 @@
 
 namespace vesselbench {
 
-/// True if there is a program of this name in PATH.
-[[nodiscard]] bool is_installed(const std::string& program);
+/// The file of the program of this name in PATH; empty: there is none.
+[[nodiscard]] std::filesystem::path installed_program(const std::string& name);
 
 /// Runs a program of OpenFOAM's in a case's folder, its output in log.NAME there, and waits for its
 /// end. What it starts ends with it, and it ends with this process.
