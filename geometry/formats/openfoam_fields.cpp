@@ -25,11 +25,11 @@ namespace {
 constexpr double kMillimetresInMetre = 1000.0;
 
 /// The first surface of this name among the blocks of a data set and those below them.
-vtkPolyData* block_of(vtkMultiBlockDataSet* blocks, const std::string& name) {
+vtkPolyData* patch_block(vtkMultiBlockDataSet* blocks, const std::string& name) {
     for (unsigned i = 0; i < blocks->GetNumberOfBlocks(); ++i) {
         vtkDataObject* block = blocks->GetBlock(i);
         if (auto* inner = vtkMultiBlockDataSet::SafeDownCast(block))
-            if (vtkPolyData* found = block_of(inner, name)) return found;
+            if (vtkPolyData* found = patch_block(inner, name)) return found;
         auto* surface = vtkPolyData::SafeDownCast(block);
         if (surface == nullptr || blocks->HasMetaData(i) == 0) continue;
         const char* own = blocks->GetMetaData(i)->Get(vtkCompositeDataSet::NAME());
@@ -97,7 +97,7 @@ FoamPatchFields read_foam_patch(const std::filesystem::path& folder, const std::
     if (reader->GetTimeValues() == nullptr || reader->GetTimeValues()->GetNumberOfTuples() == 0)
         throw InvalidInput("'" + name + "' has no time that VTK's OpenFOAM reader can read");
     reader->UpdateTimeStep(time);
-    vtkPolyData* surface = block_of(reader->GetOutput(), patch);
+    vtkPolyData* surface = patch_block(reader->GetOutput(), patch);
     if (surface == nullptr || surface->GetNumberOfPolys() == 0)
         throw InvalidInput("'" + name + "' has no patch " + patch +
                            " that VTK's OpenFOAM reader can read");

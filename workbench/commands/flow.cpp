@@ -32,13 +32,13 @@ void warn_unless_converged(const FlowResults& results) {
              "its figures are not to be used; openfoam.iterations allows more");
 }
 
-void write_results(const FlowResults& results, const fs::path& folder, const Progress& progress) {
+void keep_results(const FlowResults& results, const fs::path& folder, const Progress& progress) {
     const WrittenResults written = write_flow_results(results, folder, progress);
     for (const Diagnostic& warning : written.warnings) warn(worded_with_operation(warning));
     remark("results: " + folder.string() + " (" + joined(written.names) + ")");
 }
 
-void tell_run(const FlowRun& run) {
+void tell_flow_run(const FlowRun& run) {
     if (run.seconds <= 0.0) return;
     remark((run.converged ? "solved in " : "ended after ") +
            counted(static_cast<std::size_t>(run.iterations), "iteration") + ", " +
@@ -56,12 +56,11 @@ void print_results(const FlowResults& results, bool json) {
 
 FlowResults solved_flow(const FlowArguments& arguments, const Progress& progress) {
     const FlowCase flow = find_flow_case(arguments.folder);
-    tell_run(
+    tell_flow_run(
         run_flow(flow, {.processes = arguments.processes}, &remark, progress.part(0.0, kSolving)));
     FlowResults results = read_flow_results(flow);
-    write_results(results,
-                  arguments.out.empty() ? flow.folder / "results" : fs::path(arguments.out),
-                  progress.part(kSolving, 1.0));
+    keep_results(results, arguments.out.empty() ? flow.folder / "results" : fs::path(arguments.out),
+                 progress.part(kSolving, 1.0));
     warn_unless_converged(results);
     return results;
 }
@@ -87,7 +86,7 @@ int run_case(const FlowArguments& arguments, const Progress& progress) {
 
 int show_results(const FlowArguments& arguments, const Progress& progress) {
     const FlowResults results = read_flow_results(find_flow_case(arguments.folder));
-    if (!arguments.out.empty()) write_results(results, arguments.out, progress);
+    if (!arguments.out.empty()) keep_results(results, arguments.out, progress);
     warn_unless_converged(results);
     print_results(results, arguments.json);
     if (!arguments.json) std::cout << "\n" << as_columns({{"methods", methods_text(results)}});

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 /// What the solver needs to go on.
 constexpr std::array kSolved = {"U", "p", "phi"};
 /// OpenFOAM's last line of a whole file.
-constexpr std::string_view kEnd = "// ****";
+constexpr std::string_view kFoamEnd = "// ****";
 
 bool is_case(const fs::path& folder) {
     std::error_code error;
@@ -28,12 +28,12 @@ bool is_case(const fs::path& folder) {
 }
 
 /// Of a file that OpenFOAM writes: its end is there.
-bool is_whole(const fs::path& file) {
+bool is_whole_file(const fs::path& file) {
     std::error_code error;
     if (!fs::is_regular_file(file, error)) return false;
     const std::string text = file_content(file);
     constexpr std::size_t kTail = 120;
-    return text.find(kEnd, text.size() > kTail ? text.size() - kTail : 0) != std::string::npos;
+    return text.find(kFoamEnd, text.size() > kTail ? text.size() - kTail : 0) != std::string::npos;
 }
 
 /// The time folders above 0.
@@ -51,7 +51,8 @@ std::map<double, fs::path> times_in(const fs::path& folder) {
 }
 
 bool is_whole_time(const fs::path& time) {
-    return std::ranges::all_of(kSolved, [&](const char* field) { return is_whole(time / field); });
+    return std::ranges::all_of(kSolved,
+                               [&](const char* field) { return is_whole_file(time / field); });
 }
 
 }  // namespace

@@ -46,9 +46,9 @@ RecordedOpening recorded(const PatchMeasures& patch, const FlowSummary& summary)
     return opening;
 }
 
-FlowRecord record_of(const fs::path& folder, const VolumeMesh& mesh,
-                     const CfdParameters& parameters, const std::string& provenance,
-                     const std::vector<MadeEnd>& ends) {
+FlowRecord flow_record_of(const fs::path& folder, const VolumeMesh& mesh,
+                          const CfdParameters& parameters, const std::string& provenance,
+                          const std::vector<MadeEnd>& ends) {
     const Surface surface = boundary_surface(mesh);
     const FlowSummary summary = flow_summary(surface, parameters);
     FlowRecord record{.provenance = provenance,
@@ -115,7 +115,7 @@ Vec3 vector_from(const std::array<double, 3>& xyz) {
     return {xyz[0], xyz[1], xyz[2]};
 }
 
-MadeEnd end_from(const Json& json, const std::string& place) {
+MadeEnd made_end_from(const Json& json, const std::string& place) {
     JsonFields fields(json, place);
     return {.centre = vector_from(fields.required<std::array<double, 3>>("centre_mm")),
             .outward = vector_from(fields.required<std::array<double, 3>>("outward")),
@@ -133,7 +133,7 @@ std::vector<Entry> list_from(JsonFields& fields, const char* key,
     return entries;
 }
 
-FlowRecord record_from(const Json& json) {
+FlowRecord flow_record_from(const Json& json) {
     JsonFields fields(json, kFlowRecordFile);
     const auto box = fields.required<std::array<double, 6>>("bounds_mm");
     const FlowRecord record{.provenance = fields.optional<std::string>("provenance").value_or(""),
@@ -147,7 +147,7 @@ FlowRecord record_from(const Json& json) {
                             .parabolic = fields.required<std::string>("profile") == "parabolic",
                             .walls = fields.required<std::vector<std::string>>("walls"),
                             .openings = list_from(fields, "openings", &opening_from),
-                            .ends = list_from(fields, "ends", &end_from)};
+                            .ends = list_from(fields, "ends", &made_end_from)};
     if (record.walls.empty() || record.openings.empty())
         throw InvalidInput(std::string(kFlowRecordFile) + " lists no wall, or no openings");
     return record;
@@ -158,7 +158,7 @@ FlowRecord record_from(const Json& json) {
 void write_flow_record(const fs::path& folder, const VolumeMesh& mesh,
                        const CfdParameters& parameters, const std::string& provenance,
                        const std::vector<MadeEnd>& ends) {
-    const FlowRecord record = record_of(folder, mesh, parameters, provenance, ends);
+    const FlowRecord record = flow_record_of(folder, mesh, parameters, provenance, ends);
     write_file(folder / kFlowRecordFile, text_from_json(to_json(record), 2) + "\n");
 }
 
@@ -166,7 +166,7 @@ FlowRecord read_flow_record(const fs::path& folder) {
     if (!fs::is_regular_file(folder / kFlowRecordFile))
         throw InvalidInput("'" + bare_name(folder) + "' has no " + kFlowRecordFile +
                            ", as cases of this version have: export it again");
-    return record_from(json_from_file(folder / kFlowRecordFile));
+    return flow_record_from(json_from_file(folder / kFlowRecordFile));
 }
 
 void require_recorded_mesh(const fs::path& folder, const FlowRecord& record) {

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 constexpr double kSameArea = 1e-4;
 
 /// Appends the faces of one patch.
-void append(FoamPatchFields& all, const FoamPatchFields& patch) {
+void append_patch(FoamPatchFields& all, const FoamPatchFields& patch) {
     const auto first = static_cast<VertexId>(all.points.size());
     all.points.insert(all.points.end(), patch.points.begin(), patch.points.end());
     for (const auto& [a, b, c] : patch.triangles)
@@ -34,8 +34,8 @@ void append(FoamPatchFields& all, const FoamPatchFields& patch) {
 }
 
 template <class Field>
-const Field& field_of(const std::map<std::string, Field>& fields, const char* name,
-                      std::size_t count, const FlowCase& flow) {
+const Field& wall_field(const std::map<std::string, Field>& fields, const char* name,
+                        std::size_t count, const FlowCase& flow) {
     const auto found = fields.find(name);
     if (found == fields.end() || found->second.size() != count)
         throw InvalidInput("'" + bare_name(flow.folder) + "': the last time has no field " + name +
@@ -54,16 +54,16 @@ std::vector<double> own_areas_of(const FlowWall& wall, const std::vector<MadeEnd
     return std::ranges::max(areas) > 0.0 ? areas : wall.areas;
 }
 
-FlowWall wall_of(const FlowCase& flow, double time) {
+FlowWall flow_wall(const FlowCase& flow, double time) {
     FoamPatchFields fields;
     for (const std::string& wall : flow.record.walls)
-        append(fields, read_foam_patch(flow.folder, wall, time));
+        append_patch(fields, read_foam_patch(flow.folder, wall, time));
     const std::size_t count = fields.triangles.size();
     const double density = flow.record.density;
     FlowWall wall;
-    for (const Vec3& stress : field_of(fields.vectors, "wallShearStress", count, flow))
+    for (const Vec3& stress : wall_field(fields.vectors, "wallShearStress", count, flow))
         wall.shear.push_back(-density * stress);
-    for (const double pressure : field_of(fields.scalars, "p", count, flow))
+    for (const double pressure : wall_field(fields.scalars, "p", count, flow))
         wall.pressure.push_back(density * pressure);
     for (const Triangle& triangle : fields.triangles)
         wall.areas.push_back(triangle_area(fields.points, triangle));
@@ -72,7 +72,7 @@ FlowWall wall_of(const FlowCase& flow, double time) {
     return wall;
 }
 
-double sum(const std::vector<double>& values) {
+double total_area(const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
@@ -88,7 +88,7 @@ void require_same_wall(const FlowCase& flow, const FlowWall& wall) {
             ++triangles;
             area += triangle_area(surface.points(), surface.triangles()[t]);
         }
-    const double own = sum(wall.areas);
+    const double own = total_area(wall.areas);
     if (triangles == wall.areas.size() && std::abs(area - own) < kSameArea * own) return;
     throw InvalidInput("'" + bare_name(flow.folder) + "' is of another mesh than the surface.vtp " +
                        "beside it (" + std::to_string(wall.areas.size()) + " and " +
@@ -106,7 +106,7 @@ std::string solver_of(const fs::path& folder) {
     return "OpenFOAM " + log.substr(begin, log.find_first_not_of("0123456789", begin) - begin);
 }
 
-std::vector<OpeningFigures> openings_of(const FlowResults& results) {
+std::vector<OpeningFigures> opening_figures(const FlowResults& results) {
     std::vector<OpeningFigures> openings;
     for (const RecordedOpening& recorded : results.flow.record.openings) {
         const double out = results.history.flows.at(recorded.name).back();
@@ -169,7 +169,7 @@ FlowResults read_flow_results(const FlowCase& flow) {
                         .history = flow_history(flow.folder, flow.record),
                         .settling = {},
                         .solver = solver_of(flow.folder),
-                        .wall = wall_of(flow, *time),
+                        .wall = flow_wall(flow, *time),
                         .shear = {},
                         .openings = {}};
     require_same_wall(flow, results.wall);
@@ -181,7 +181,7 @@ FlowResults read_flow_results(const FlowCase& flow) {
     results.settling = settling_of(results.history, flow.record);
     results.converged = results.settling.settled || has_reached_residuals(flow.folder);
     results.shear = shear_figures(magnitudes(results.wall.shear), results.wall.own_areas);
-    results.openings = openings_of(results);
+    results.openings = opening_figures(results);
     results.pressure_drop = pressure_drop(results.history, flow.record);
     results.imbalance = imbalance_of(results);
     return results;

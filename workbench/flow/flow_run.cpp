@@ -43,7 +43,7 @@ int useful_processes(const FlowRecord& record, int asked) {
     return static_cast<int>(std::clamp<std::size_t>(record.cells / kCellsForProcess, 1, cores));
 }
 
-std::vector<fs::path> parts_of(const fs::path& folder) {
+std::vector<fs::path> divided_parts(const fs::path& folder) {
     std::vector<fs::path> parts;
     for (const auto& entry : fs::directory_iterator(folder))
         if (entry.path().filename().string().starts_with("processor"))
@@ -55,7 +55,7 @@ std::vector<fs::path> parts_of(const fs::path& folder) {
 /// the parts is removed.
 void take_up(const fs::path& folder, const Progress& progress) {
     remove_broken_times(folder);
-    const std::vector<fs::path> parts = parts_of(folder);
+    const std::vector<fs::path> parts = divided_parts(folder);
     std::optional<double> common;
     for (const fs::path& part : parts) {
         remove_broken_times(part);
@@ -136,7 +136,7 @@ int last_iteration(const FlowHistory& history) {
     return history.iterations.empty() ? 0 : history.iterations.back();
 }
 
-FlowRun outcome_of(const FlowCase& flow, const SettlingLimits& limits) {
+FlowRun flow_run_of(const FlowCase& flow, const SettlingLimits& limits) {
     const FlowHistory history = flow_history(flow.folder, flow.record);
     FlowRun run{.iterations = last_iteration(history),
                 .settling = settling_of(history, flow.record, limits)};
@@ -160,7 +160,7 @@ bool has_reached_residuals(const fs::path& folder) {
 
 FlowRun run_flow(const FlowCase& flow, const FlowRunOptions& options,
                  const std::function<void(const std::string&)>& tell, const Progress& progress) {
-    FlowRun run = outcome_of(flow, options.limits);
+    FlowRun run = flow_run_of(flow, options.limits);
     if (is_finished(flow, run)) {
         tell("the flow was solved before, in " + counted(std::size_t(run.iterations), "iteration"));
         return run;
@@ -181,7 +181,7 @@ FlowRun run_flow(const FlowCase& flow, const FlowRunOptions& options,
             flow.folder, {"simpleFoam", "-case", flow.folder.string()}, "simpleFoam",
             [&] { watcher.look(); }, progress);
     write_file(flow.folder / "case.foam", "");  // for ParaView
-    run = outcome_of(flow, options.limits);
+    run = flow_run_of(flow, options.limits);
     run.processes = processes;
     run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     if (!last_whole_time(flow.folder))

@@ -32,7 +32,7 @@ std::string fluid_text(const FlowRecord& record) {
            formatted(carreau::kTime, " lambda %g s,") + formatted(carreau::kExponent, " n %g [4])");
 }
 
-std::string end_text(const FlowResults& results) {
+std::string run_end_text(const FlowResults& results) {
     const SettlingLimits limits;
     if (results.settling.settled)
         return "The iterations ended when pressures, flows and the mean wall shear stress had "
@@ -63,7 +63,7 @@ std::string methods_text(const FlowResults& results) {
            (record.given_outflows
                 ? "; flows were prescribed at all outlets but the largest, whose pressure was 0. "
                 : "; the pressure was 0 at all outlets, where backflow entered at rest. ") +
-           end_text(results) + " The imbalance of mass was" +
+           run_end_text(results) + " The imbalance of mass was" +
            formatted(100.0 * results.imbalance, " %.2g %%") +
            " of the inflow. Wall shear stress is the tangential stress that the blood exerts on "
            "the "

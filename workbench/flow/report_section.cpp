@@ -21,13 +21,13 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kPage = "report.html";
-constexpr const char* kDocument = "report.json";
-constexpr const char* kKey = "flow_results";
+constexpr const char* kReportPage = "report.html";
+constexpr const char* kReportDocument = "report.json";
+constexpr const char* kFlowKey = "flow_results";
 
 /// The section's place in the page.
-constexpr const char* kBegin = "<!-- flow results -->";
-constexpr const char* kEnd = "<!-- end of flow results -->";
+constexpr const char* kSectionBegin = "<!-- flow results -->";
+constexpr const char* kSectionEnd = "<!-- end of flow results -->";
 
 Json section_texts(const FlowResults& results, const std::vector<ReportPicture>& pictures) {
     Json figures = Json::array(), openings = Json::array(), gallery = Json::array();
@@ -52,20 +52,20 @@ Json section_texts(const FlowResults& results, const std::vector<ReportPicture>&
 
 /// The page with another section; the page itself if it has no place for one.
 std::string with_section(const std::string& page, const std::string& section) {
-    const std::size_t begin = page.find(kBegin), end = page.find(kEnd);
+    const std::size_t begin = page.find(kSectionBegin), end = page.find(kSectionEnd);
     if (begin == std::string::npos || end == std::string::npos || end < begin) return page;
-    return page.substr(0, begin) + kBegin + "\n" + section + page.substr(end);
+    return page.substr(0, begin) + kSectionBegin + "\n" + section + page.substr(end);
 }
 
 }  // namespace
 
 void add_flow_section(const FlowResults& results, const std::vector<ReportPicture>& pictures) {
-    const fs::path page = results.flow.prepared / kPage,
-                   document = results.flow.prepared / kDocument;
+    const fs::path page = results.flow.prepared / kReportPage,
+                   document = results.flow.prepared / kReportDocument;
     if (!fs::is_regular_file(page) || !fs::is_regular_file(document)) return;
-    Json report = json_from_text(file_content(document), kDocument, kLargestStoredJson);
+    Json report = json_from_text(file_content(document), kReportDocument, kLargestStoredJson);
     if (!report.is_object()) return;
-    report[kKey] = results_json(results);
+    report[kFlowKey] = results_json(results);
     const std::string section = rendered_template(report_templates().at("flow_section.html"),
                                                   section_texts(results, pictures));
     PendingFiles files;

@@ -35,7 +35,7 @@ std::vector<double> shear_at_vertices(const FlowWall& wall) {
 
 using SharedValues = std::shared_ptr<const std::vector<double>>;
 
-SharedValues shared(std::vector<double> values) {
+SharedValues shared_values(std::vector<double> values) {
     return std::make_shared<const std::vector<double>>(std::move(values));
 }
 
@@ -47,12 +47,12 @@ void write_wall_vtp(const FlowResults& results, const std::string& path) {
     VtkMesh mesh{.points = wall.surface.points(), .provenance = results.flow.record.provenance};
     for (const Triangle& triangle : wall.surface.triangles()) add_cell(mesh, triangle, 1);
     mesh.patch_names = {"wall"};
-    mesh.attributes = {{wall_arrays::kShear, shared(shear_at_vertices(wall))},
-                       {wall_arrays::kPressure,
-                        shared(values_at_vertices(wall.surface, wall.pressure, wall.areas))}};
-    mesh.cell_values = {{wall_arrays::kShearVector, shared(std::move(vectors))},
-                        {wall_arrays::kShear, shared(magnitudes(wall.shear))},
-                        {wall_arrays::kPressure, shared(wall.pressure)}};
+    mesh.attributes = {{wall_arrays::kShear, shared_values(shear_at_vertices(wall))},
+                       {wall_arrays::kPressure, shared_values(values_at_vertices(
+                                                    wall.surface, wall.pressure, wall.areas))}};
+    mesh.cell_values = {{wall_arrays::kShearVector, shared_values(std::move(vectors))},
+                        {wall_arrays::kShear, shared_values(magnitudes(wall.shear))},
+                        {wall_arrays::kPressure, shared_values(wall.pressure)}};
     write_vtk_poly_data(mesh, path);
 }
 

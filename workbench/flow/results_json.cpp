@@ -20,7 +20,7 @@ std::string low_shear_definition() {
            formatted(kLowShear, " %g Pa") + " (Malek et al. 1999)";
 }
 
-Json case_json(const FlowResults& results) {
+Json flow_case_json(const FlowResults& results) {
     const FlowRecord& record = results.flow.record;
     return {{"folder", bare_name(results.flow.folder)},
             {"provenance", record.provenance},
@@ -90,7 +90,7 @@ Json results_json(const FlowResults& results) {
         definitions[figure.key] = figure.definition;
     }
     for (const OpeningFigures& opening : results.openings) openings.push_back(opening_row(opening));
-    return {{"program_version", version()},       {"case", case_json(results)},
+    return {{"program_version", version()},       {"case", flow_case_json(results)},
             {"solution", solution_json(results)}, {"figures", figures},
             {"definitions", definitions},         {"openings", openings},
             {"methods", methods_text(results)},   {"references", method_references(results)}};

@@ -24,15 +24,15 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::chrono_literals;
 
-constexpr auto kPoll = 20ms;    ///< how soon a cancel is heard
-constexpr auto kWatch = 200ms;  ///< between two looks at the tables
+constexpr auto kSolverPoll = 20ms;  ///< how soon a cancel is heard
+constexpr auto kWatch = 200ms;      ///< between two looks at the tables
 constexpr std::size_t kLastLines = 6;
 
 /// Where Debian has what its programs look for.
 constexpr const char* kProjectFolder = "/usr/share/openfoam";
 
 /// The log, locked for as long as it or a child's copy of it is open.
-Descriptor opened_log(const fs::path& file) {
+Descriptor locked_log(const fs::path& file) {
     const int number = ::open(file.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
     if (number < 0) throw IoError("'" + bare_name(file) + "' cannot be written");
     Descriptor log = moved_up(number);
@@ -86,7 +86,7 @@ void run_solver(const fs::path& folder, const std::vector<std::string>& command,
                 const std::string& log, const std::function<void()>& watch,
                 const Progress& progress) {
     const fs::path file = folder / ("log." + log);
-    const Descriptor output = opened_log(file);
+    const Descriptor output = locked_log(file);
     Child child({.command = ending_with_us(command),
                  .ends = {{output.number(), STDOUT_FILENO}, {output.number(), STDERR_FILENO}},
                  .environment = solver_environment(),
@@ -99,7 +99,7 @@ void run_solver(const fs::path& folder, const std::vector<std::string>& command,
             watched = now;
             watch();
         }
-        std::this_thread::sleep_for(kPoll);
+        std::this_thread::sleep_for(kSolverPoll);
     }
     watch();
     if (WIFEXITED(*status) && WEXITSTATUS(*status) == 0) return;
