@@ -73,11 +73,15 @@ void take_up(const fs::path& folder, const Progress& progress) {
 class FlowWatcher {
 public:
     FlowWatcher(const FlowCase& flow, const SettlingLimits& limits, const Progress& progress)
-        : flow_(flow), limits_(limits), progress_(progress) {}
+        : flow_(flow),
+          limits_(limits),
+          progress_(progress),
+          before_(flow_history(flow.folder, flow.record).iterations) {}
 
     void look() {
         const FlowHistory history = flow_history(flow_.folder, flow_.record);
         const std::size_t count = history.iterations.size();
+        if (history.iterations == before_) return;  // the solver has not begun
         if (count == 0) return;
         if (first_ == 0) first_ = history.iterations.back();
         const Settling settling = settling_of(history, flow_.record, limits_);
@@ -88,10 +92,8 @@ public:
                 formatted(settling.residual, ", residual %.1e") +
                 formatted(pressure_drop(history, flow_.record), ", pressure drop %.4g Pa"));
         refuse_divergence(settling, count);
-        if (settling.settled && !asked_) {
+        if (settling.settled && !fs::exists(flow_.folder / kStopFile))
             write_file(flow_.folder / kStopFile, "action=writeNow\n");
-            asked_ = true;
-        }
     }
 
 private:
@@ -109,8 +111,8 @@ private:
     const FlowCase& flow_;
     SettlingLimits limits_;
     Progress progress_;
+    std::vector<int> before_;  ///< iterations of earlier runs
     int first_ = 0;
-    bool asked_ = false;
 };
 
 void run_divided(const FlowCase& flow, int processes, FlowWatcher& watcher,

@@ -101,7 +101,6 @@ void run_solver(const fs::path& folder, const std::vector<std::string>& command,
         }
         std::this_thread::sleep_for(kSolverPoll);
     }
-    watch();
     if (WIFEXITED(*status) && WEXITSTATUS(*status) == 0) return;
     throw AlgorithmFailure(command.front() + " failed; its last lines (log." + log +
                            " has all): " + last_lines(file));

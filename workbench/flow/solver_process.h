@@ -16,7 +16,7 @@ namespace vesselbench {
 /// end. What it starts ends with it, and it ends with this process.
 /// \param command the program and its arguments
 /// \param log NAME
-/// \param watch called about five times a second, and once at the end
+/// \param watch called about five times a second
 /// \throw AlgorithmFailure with the last lines of its output if it fails; InvalidInput if another
 /// process writes the log; what `watch` throws; Cancelled; it is then killed
 void run_solver(const std::filesystem::path& folder, const std::vector<std::string>& command,
