@@ -6,7 +6,7 @@ namespace vesselbench {
 
 namespace {
 
-/// Between two time folders, of which the last two are kept: what a killed run loses.
+/// At most, between two time folders, of which the last two are kept: what a killed run loses.
 constexpr int kIterationsBetweenWrites = 50;
 
 constexpr const char* kWholeControl = R"(application     simpleFoam;
@@ -64,11 +64,15 @@ void put_table(TextBuffer& out, const char* prefix, const std::string& patch, co
 
 std::string control_dictionary(std::span<const FoamPatch> patches,
                                const CfdParameters& parameters) {
+    // The last iteration is one that is written: OpenFOAM ends without writing.
+    const int writes =
+        (parameters.iterations + kIterationsBetweenWrites - 1) / kIterationsBetweenWrites;
+    const int interval = parameters.iterations / writes;
     TextBuffer out;
     out << foam_header("dictionary", "system", "controlDict") << kWholeControl << "endTime         "
-        << parameters.iterations
+        << interval * writes
         << ";  // most iterations; system/fvSolution ends the run at its residuals\n"
-        << "writeInterval   " << kIterationsBetweenWrites << ";\n\nfunctions\n{\n"
+        << "writeInterval   " << interval << ";\n\nfunctions\n{\n"
         << "    wallShearStress  // kinematic [m^2/s^2]; times " << parameters.density
         << " for Pa\n    {\n        type            wallShearStress;\n"
         << "        libs            (\"libfieldFunctionObjects.so\");\n"

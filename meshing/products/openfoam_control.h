@@ -22,8 +22,8 @@ inline constexpr const char* kResiduals = "residuals";  ///< of every equation, 
 /// written.
 inline constexpr const char* kStopFile = "stop";
 
-/// system/controlDict: starts at the last time folder, writes one every 50 iterations (so that a
-/// killed run goes on), and the tables above.
+/// system/controlDict: starts at the last time folder, writes one at least every 50 iterations
+/// and at the last one (so that a killed run goes on), and the tables above.
 [[nodiscard]] std::string control_dictionary(std::span<const FoamPatch> patches,
                                              const CfdParameters& parameters);
 

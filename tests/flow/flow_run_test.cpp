@@ -3,6 +3,7 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <numbers>
 #include <thread>
 
@@ -53,10 +54,14 @@ std::string programs(const std::string& name, const std::string& script) {
     return "export PATH=" + folder + ":/usr/bin:/bin;";
 }
 
+/// Whether the process of this number runs: one that has ended may wait to be collected.
 bool runs(const std::string& pid_file) {
     std::ifstream file(pid_file);
     int pid = 0;
-    return file >> pid && ::kill(pid, 0) == 0;
+    if (!(file >> pid)) return false;
+    std::ifstream stat("/proc/" + std::to_string(pid) + "/stat");
+    std::string number, name, state;
+    return stat >> number >> name >> state && state != "Z";
 }
 
 /// Waits up to 20 s.
