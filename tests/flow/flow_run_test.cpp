@@ -64,9 +64,9 @@ bool runs(const std::string& pid_file) {
     return stat >> number >> name >> state && state != "Z";
 }
 
-/// Waits up to 20 s.
+/// Waits up to two minutes.
 bool comes_true(const std::function<bool()>& holds) {
-    for (int k = 0; k < 1000; ++k, std::this_thread::sleep_for(20ms))
+    for (int k = 0; k < 6000; ++k, std::this_thread::sleep_for(20ms))
         if (holds()) return true;
     return false;
 }

@@ -61,9 +61,12 @@ std::vector<std::string> ending_with_us(std::vector<std::string> command) {
 }
 
 std::vector<std::string> solver_environment() {
-    std::vector<std::string> environment = {
-        "LC_ALL=C", "OMPI_MCA_rmaps_base_oversubscribe=1", "OMPI_ALLOW_RUN_AS_ROOT=1",
-        "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1", "OMPI_MCA_hwloc_base_binding_policy=none"};
+    std::vector<std::string> environment = {"LC_ALL=C",
+                                            "OMPI_MCA_rmaps_base_oversubscribe=1",
+                                            "OMPI_MCA_mpi_yield_when_idle=1",
+                                            "OMPI_ALLOW_RUN_AS_ROOT=1",
+                                            "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1",
+                                            "OMPI_MCA_hwloc_base_binding_policy=none"};
     if (std::getenv("WM_PROJECT_DIR") == nullptr && fs::is_directory(kProjectFolder))
         environment.push_back(std::string("WM_PROJECT_DIR=") + kProjectFolder);
     return environment;
