@@ -1,7 +1,6 @@
 # Third-party libraries, all of them Debian packages (scripts/setup).
 find_package(VTK 9.1 REQUIRED COMPONENTS
-  CommonCore CommonDataModel CommonExecutionModel FiltersCore IOLegacy IOXML
-  IOGeometry)  # of the tests: reads GLB back
+  CommonCore CommonDataModel CommonExecutionModel FiltersCore IOGeometry IOLegacy IOXML)
 find_package(CGAL 5.5 REQUIRED)
 # CGAL's Find modules shadow those of other packages: CONFIG is needed from here on.
 find_package(Eigen3 CONFIG REQUIRED)

@@ -36,6 +36,15 @@ vtkSmartPointer<Array> view_of(const T* values, std::size_t count) {
     return array;
 }
 
+void add_cell_values(vtkDataSet* data, const VtkMesh& mesh) {
+    for (const auto& [name, values] : mesh.cell_values) {
+        const auto array = view_of<vtkDoubleArray>(values->data(), values->size());
+        array->SetNumberOfComponents(static_cast<int>(values->size() / mesh.regions.size()));
+        array->SetName(name.c_str());
+        data->GetCellData()->AddArray(array);
+    }
+}
+
 vtkSmartPointer<vtkCellArray> cells_of(const VtkMesh& mesh) {
     auto cells = vtkSmartPointer<vtkCellArray>::New();
     const auto offsets = view_of<vtkTypeInt64Array>(mesh.offsets.data(), mesh.offsets.size());
@@ -68,6 +77,7 @@ void fill(vtkPointSet* data, const VtkMesh& mesh) {
     const auto regions = view_of<vtkIntArray>(mesh.regions.data(), mesh.regions.size());
     regions->SetName("CellEntityIds");
     data->GetCellData()->SetScalars(regions);
+    add_cell_values(data, mesh);
     add_texts(data, "PatchNames", mesh.patch_names);
     add_texts(data, "Units", {"mm"});
     if (!mesh.provenance.empty()) add_texts(data, "Provenance", {comment_line(mesh.provenance)});

@@ -21,6 +21,8 @@ struct VtkMesh {
     std::vector<std::int32_t> regions;  ///< per cell, the array CellEntityIds
     std::vector<std::string> patch_names;  ///< of regions 1, 2..., the field array PatchNames
     std::map<std::string, std::shared_ptr<const std::vector<double>>> attributes;  ///< per point
+    /// Per cell; of as many components as the numbers of values and cells say.
+    std::map<std::string, std::shared_ptr<const std::vector<double>>> cell_values = {};
     std::string provenance;  ///< of the model, the field array Provenance; empty: none
 };
 

@@ -77,7 +77,36 @@ void distribute_flow(const CfdParameters& parameters, std::vector<InletFlow>& in
             throw InvalidInput("flow conditions: inlet_flows lacks the inlet " + inlet.name);
 }
 
+/// A patch and what its share of the outflow is proportional to.
+struct OutletWeight {
+    std::string name;
+    double weight = 0.0;
+};
+
+std::vector<GivenOutflow> given_outflows(const Surface& surface, OutletFlow rule, double inflow) {
+    if (rule == OutletFlow::ZeroPressure) return {};
+    std::vector<OutletWeight> outlets;
+    double all = 0.0;
+    for (std::size_t k = 0; k < surface.patches.size(); ++k) {
+        if (surface.patches[k].kind != PatchKind::Outlet) continue;
+        const double area = patch_area(surface, k);
+        outlets.push_back(
+            {surface.patches[k].name, rule == OutletFlow::Cubes ? std::pow(area, 1.5) : area});
+        all += outlets.back().weight;
+    }
+    const auto largest = std::ranges::max_element(outlets, {}, &OutletWeight::weight);
+    std::vector<GivenOutflow> flows;
+    for (auto outlet = outlets.begin(); outlet != outlets.end(); ++outlet)
+        if (outlet != largest) flows.push_back({outlet->name, inflow * outlet->weight / all});
+    return flows;
+}
+
 }  // namespace
+
+double viscosity_at_shear(const CfdParameters& parameters) {
+    return parameters.viscosity_model == ViscosityModel::Carreau ? carreau::kAtShear
+                                                                 : parameters.viscosity;
+}
 
 FlowSummary flow_summary(const Surface& surface, const CfdParameters& parameters,
                          const std::map<std::string, double>& bends) {
@@ -99,10 +128,13 @@ FlowSummary flow_summary(const Surface& surface, const CfdParameters& parameters
                                             {"outlets", static_cast<double>(summary.outlets)}},
                                 .remedies = {{.operation = "clip-opening"}}});
     distribute_flow(parameters, summary.inlets);
+    double inflow = 0.0;
+    for (const InletFlow& inlet : summary.inlets) inflow += inlet.flow;
+    summary.outflows = given_outflows(surface, parameters.outlets, inflow);
     for (InletFlow& inlet : summary.inlets) {
         inlet.mean_velocity = inlet.flow / inlet.area;  // cm^3/s by mm^2 is m/s
-        inlet.reynolds =
-            inlet.mean_velocity * inlet.diameter * 1e-3 * parameters.density / parameters.viscosity;
+        inlet.reynolds = inlet.mean_velocity * inlet.diameter * 1e-3 * parameters.density /
+                         viscosity_at_shear(parameters);
         if (inlet.reynolds > kLaminarReynolds)
             summary.warnings.push_back({.code = "flow-not-laminar",
                                         .figures = {{"reynolds", inlet.reynolds}},

@@ -19,19 +19,41 @@ enum class FlowSplit {
             ///< physiological principle of minimum work", 1926)
 };
 
+/// What leaves through the outlets.
+enum class OutletFlow {
+    ZeroPressure,  ///< what the resistance of the model's vessels makes of one pressure at all
+    Area,          ///< by their areas: all with the same mean velocity
+    Cubes          ///< by the cubes of their diameters (Murray 1926)
+};
+
+/// How the viscosity of blood depends on the shear rate.
+enum class ViscosityModel { Newtonian, Carreau };
+
+/// mu = mu_inf + (mu_0 - mu_inf) (1 + (lambda rate)^2)^((n - 1) / 2). Source of the constants: Cho,
+/// Kensey, "Effects of the non-Newtonian viscosity of blood on flows in a diseased arterial
+/// vessel", Biorheology 28, 1991.
+namespace carreau {
+inline constexpr double kAtRest = 0.056;     ///< mu_0 [Pa s]
+inline constexpr double kAtShear = 0.00345;  ///< mu_inf [Pa s]
+inline constexpr double kTime = 3.313;       ///< lambda [s]
+inline constexpr double kExponent = 0.3568;  ///< n [-]
+}  // namespace carreau
+
 /// The flow through one inlet.
 struct NamedFlow {
     std::string inlet;
     double flow = 0.0;  ///< [cm^3/s], > 0
 };
 
-/// Flow of blood through a model with rigid walls: steady, laminar, Newtonian (thesis 5.5.1).
+/// Flow of blood through a model with rigid walls: steady, laminar (thesis 5.5.1).
 struct CfdParameters {
     double density = 1000.0;  ///< [kg/m^3], > 0
-    double viscosity = 4e-3;  ///< dynamic [Pa s], > 0
-    double flow = 1.2;        ///< through all inlets together [cm^3/s], > 0; distributed by `split`
+    double viscosity = 4e-3;  ///< dynamic, of Newtonian blood [Pa s], > 0
+    ViscosityModel viscosity_model = ViscosityModel::Newtonian;
+    double flow = 1.2;  ///< through all inlets together [cm^3/s], > 0; distributed by `split`
     std::optional<FlowSplit> split = std::nullopt;  ///< none: Area
     std::vector<NamedFlow> inlet_flows = {};  ///< in place of it, one for every inlet; or none
+    OutletFlow outlets = OutletFlow::ZeroPressure;
     InflowProfile profile = InflowProfile::Parabolic;  ///< Parabolic: as in a long straight duct
     int iterations = 2000;                             ///< largest number of SIMPLE iterations
     double residual = 1e-5;  ///< initial residuals of p and U at which the run stops [-]
@@ -48,9 +70,18 @@ struct InletFlow {
     double reynolds = 0.0;       ///< mean velocity * diameter * density / viscosity [-]
 };
 
+/// One outlet whose flow is given.
+struct GivenOutflow {
+    std::string name;
+    double flow = 0.0;  ///< [cm^3/s]
+};
+
 struct FlowSummary {
     std::vector<InletFlow> inlets;
     std::size_t outlets = 0;
+    /// All outlets but the largest, through which the rest leaves; none for
+    /// OutletFlow::ZeroPressure.
+    std::vector<GivenOutflow> outflows = {};
     std::vector<Diagnostic> warnings;  ///< not laminar; inlet in a bend
 };
 
@@ -58,6 +89,9 @@ struct FlowSummary {
 inline constexpr double kLaminarReynolds = 2000.0;
 /// A centerline that turns more than this within two diameters of the inlet disturbs the profile.
 inline constexpr double kLargestInletBend = 15.0;  // [deg]
+
+/// Dynamic viscosity for Reynolds numbers: of Carreau's model that of high shear rates [Pa s].
+[[nodiscard]] double viscosity_at_shear(const CfdParameters& parameters);
 
 /// The flow that the parameters imply on this surface.
 /// \param bends by inlet, turn of the centerline within two diameters [deg]; missing: unknown

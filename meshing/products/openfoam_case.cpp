@@ -3,15 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <utility>
 
 #include "geometry/formats/comment_line.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/measure.h"
 #include "geometry/kernel/plain_name.h"
 #include "geometry/kernel/whole_file.h"
 #include "geometry/kernel/wording.h"
 #include "meshing/products/inflow.h"
+#include "meshing/products/openfoam_control.h"
 #include "meshing/products/openfoam_mesh.h"
 #include "meshing/products/text_buffer.h"
 
@@ -43,6 +46,14 @@ struct CaseWriter {
         return std::ranges::find(flow.inlets, inlet.name, &InletFlow::name)->flow;
     }
 
+    /// The flow that is given for an outlet [cm^3/s]; none: what the pressures make of it.
+    [[nodiscard]] std::optional<double> given_outflow(const FoamPatch& patch) const {
+        const auto& all = flow.outflows;
+        const auto found =
+            std::ranges::find(all, mesh.patches[patch.index].name, &GivenOutflow::name);
+        return found == all.end() ? std::nullopt : std::optional(found->flow);
+    }
+
     [[nodiscard]] std::string flows() const {  // for comments
         std::vector<std::string> texts;
         for (const InletFlow& inlet : flow.inlets)
@@ -58,8 +69,6 @@ struct CaseWriter {
     [[nodiscard]] std::string velocity() const;
     [[nodiscard]] std::string pressure() const;
     [[nodiscard]] std::string transport() const;
-    [[nodiscard]] std::string control() const;
-    [[nodiscard]] std::string decomposition() const;
 };
 
 // Of every face; a quadrilateral's is the mean over its two triangles, weighted by area.
@@ -117,6 +126,10 @@ std::string CaseWriter::velocity() const {
             out << "        type            noSlip;\n";
         else if (patch.kind == PatchKind::Inlet)
             put_inflow(out, patch);
+        else if (const auto given = given_outflow(patch))
+            out << "        type            flowRateOutletVelocity;\n        "
+                   "volumetricFlowRate constant "
+                << *given * 1e-6 << ";\n        value           uniform (0 0 0);\n";
         else
             out << "        type            inletOutlet;\n        inletValue      uniform (0 0 "
                    "0);\n        value           uniform (0 0 0);\n";
@@ -134,7 +147,7 @@ std::string CaseWriter::pressure() const {
            "0;\n\nboundaryField\n{\n";
     for (const FoamPatch& patch : patches) {
         out << "    " << patch.name << "\n    {\n";
-        if (patch.kind == PatchKind::Outlet)
+        if (patch.kind == PatchKind::Outlet && !given_outflow(patch))
             out << "        type            fixedValue;\n        value           uniform 0;\n";
         else
             out << "        type            zeroGradient;\n";
@@ -146,57 +159,20 @@ std::string CaseWriter::pressure() const {
 
 std::string CaseWriter::transport() const {
     TextBuffer out;
-    out << foam_header("dictionary", "constant", "transportProperties") << "// dynamic viscosity "
-        << parameters.viscosity << " Pa s, density " << parameters.density
-        << " kg/m^3\ntransportModel  Newtonian;\n\nnu              [0 2 -1 0 0 0 0] "
-        << parameters.viscosity / parameters.density << ";\n";
-    return out.text();
-}
-
-std::string CaseWriter::control() const {
-    TextBuffer out;
-    out << foam_header("dictionary", "system", "controlDict")
-        << "application     simpleFoam;\nstartFrom       latestTime;\nstartTime       0;\nstopAt   "
-           "       endTime;\nendTime         "
-        << parameters.iterations
-        << ";  // most iterations; system/fvSolution ends the run at its residuals\ndeltaT         "
-           " 1;\nwriteControl    timeStep;\nwriteInterval   "
-        << parameters.iterations
-        << ";\npurgeWrite      2;\nwriteFormat     ascii;\nwritePrecision  8;\ntimeFormat      "
-           "general;\ntimePrecision   6;\nrunTimeModifiable false;\n\nfunctions\n{\n"
-        << "    wallShearStress  // kinematic [m^2/s^2]; times " << parameters.density
-        << " for Pa\n    {\n        type            wallShearStress;\n"
-        << "        libs            (\"libfieldFunctionObjects.so\");\n        writeControl    "
-           "writeTime;\n        log             false;\n    }\n";
-    for (const FoamPatch& patch : patches) {
-        if (resting(patch)) continue;
-        for (const bool pressure : {true, false})
-            out << "    " << (pressure ? "pressure_" : "flow_") << patch.name
-                << "\n    {\n        type            surfaceFieldValue;\n"
-                << "        libs            (\"libfieldFunctionObjects.so\");\n        regionType  "
-                   "    patch;\n        name            "
-                << patch.name << ";\n        operation       " << (pressure ? "areaAverage" : "sum")
-                << ";\n        fields          (" << (pressure ? "p" : "phi")
-                << ");\n        writeFields     false;\n        writeControl    timeStep;\n        "
-                   "writeInterval   10;\n        log             false;\n    }\n";
-    }
-    out << "}\n";
-    return out.text();
-}
-
-std::string CaseWriter::decomposition() const {
-    Eigen::AlignedBox3d box;
-    for (const Vec3& p : mesh.points) box.extend(p);
-    Eigen::Index longest = 0;
-    box.sizes().maxCoeff(&longest);
-    TextBuffer out;
-    out << foam_header("dictionary", "system", "decomposeParDict")
-        << "// simple: Debian's scotch is a stub; slices along the longest "
-           "axis\nnumberOfSubdomains "
-        << parameters.processes << ";\n\nmethod          simple;\n\ncoeffs\n{\n    n           (";
-    for (int k = 0; k < 3; ++k)
-        out << (k > 0 ? " " : "") << (k == longest ? parameters.processes : 1);
-    out << ");\n    delta       0.001;\n}\n";
+    out << foam_header("dictionary", "constant", "transportProperties");
+    if (parameters.viscosity_model == ViscosityModel::Newtonian)
+        out << "// dynamic viscosity " << parameters.viscosity << " Pa s, density "
+            << parameters.density
+            << " kg/m^3\ntransportModel  Newtonian;\n\nnu              [0 2 -1 0 0 0 0] "
+            << parameters.viscosity / parameters.density << ";\n";
+    else
+        out << "// Carreau: Cho, Kensey 1991; density " << parameters.density
+            << " kg/m^3\ntransportModel  BirdCarreau;\n\nBirdCarreauCoeffs\n{\n"
+               "    nu0             [0 2 -1 0 0 0 0] "
+            << carreau::kAtRest / parameters.density << ";\n    nuInf           [0 2 -1 0 0 0 0] "
+            << carreau::kAtShear / parameters.density << ";\n    k               [0 0 1 0 0 0 0] "
+            << carreau::kTime << ";\n    n               [0 0 0 0 0 0 0] " << carreau::kExponent
+            << ";\n}\n";
     return out.text();
 }
 
@@ -336,8 +312,14 @@ std::string readme(const VolumeMesh& mesh, const CfdParameters& parameters,
         << "  " << mesh.tetrahedra.size() << " tetrahedra";
     if (!mesh.prisms.empty()) out << " and " << mesh.prisms.size() << " prisms along the wall";
     out << "; lengths in metres; density " << parameters.density << " kg/m^3, viscosity "
-        << parameters.viscosity << " Pa s; " << flows << "\n"
-        << "  no-slip walls; outlets at pressure 0, backflow enters at rest\n\n"
+        << viscosity_at_shear(parameters)
+        << (parameters.viscosity_model == ViscosityModel::Carreau
+                ? " Pa s at high shear rates (Carreau); "
+                : " Pa s; ")
+        << flows << "\n"
+        << (parameters.outlets == OutletFlow::ZeroPressure
+                ? "  no-slip walls; outlets at pressure 0, backflow enters at rest\n\n"
+                : "  no-slip walls; outlets with given flows, the largest at pressure 0\n\n")
         << "  ./Allrun           checkMesh and simpleFoam on one core\n"
         << "  ./Allrun.parallel  decomposePar, mpirun -np " << parameters.processes
         << " simpleFoam -parallel, reconstructPar\n\n"
@@ -373,7 +355,8 @@ void write_script(const fs::path& path, bool parallel) {
 }  // namespace
 
 bool is_unused_openfoam_case(const fs::path& folder) {
-    constexpr std::array kOwn = {"0", "constant", "system", "Allrun", "Allrun.parallel", "README"};
+    constexpr std::array kOwn = {"0",      "constant",        "system", kFlowRecordFile,
+                                 "Allrun", "Allrun.parallel", "README"};
     std::error_code error;
     if (!fs::is_regular_file(folder / "system" / "controlDict", error)) return false;
     fs::directory_iterator entries(folder, error);
@@ -405,14 +388,15 @@ void write_openfoam_case(const fs::path& folder, const VolumeMesh& mesh,
     progress.check_cancelled();
     write_file(folder / "system/fvSchemes", schemes(angle));
     write_file(folder / "system/fvSolution", solution(parameters, angle));
-    write_file(folder / "system/decomposeParDict", writer.decomposition());
+    write_file(folder / "system/decomposeParDict",
+               decomposition_dictionary(bounds(mesh.points), parameters.processes));
     write_script(folder / "Allrun", false);
     write_script(folder / "Allrun.parallel", true);
     const std::string line = provenance.empty() ? "" : comment_line(provenance) + "\n";
     write_file(folder / "README", line + readme(mesh, parameters, writer.flows()));
     // Last: it makes the folder a case.
     write_file(folder / "system/controlDict",
-               (line.empty() ? "" : "// " + line) + writer.control());
+               (line.empty() ? "" : "// " + line) + control_dictionary(writer.patches, parameters));
 }
 
 }  // namespace vesselbench

@@ -14,16 +14,18 @@ namespace vesselbench {
 /// laminar Newtonian blood, second-order schemes, residual control, decomposeParDict, and the
 /// scripts Allrun and Allrun.parallel. Walls are no-slip; at the outlets p = 0 (kinematic) and
 /// backflow enters at rest (inletOutlet); at the inlet the velocity is fixed, plug or parabolic,
-/// with exactly the given flow. simpleFoam writes mean pressure and flow of each opening, and the
-/// wall shear stress, to postProcessing/ and the last time folder. README and system/controlDict
-/// begin with the model's provenance, if it is given. An existing case in the folder
-/// is replaced (its results are kept).
+/// with exactly the given flow. system/controlDict is that of control_dictionary(). README and
+/// system/controlDict begin with the model's provenance, if it is given. An existing case in the
+/// folder is replaced (its results are kept).
 /// \throw InvalidInput if the mesh has no inlet or outlet; IoError if a file cannot be written, or
 ///        the folder contains something that is not a case; Cancelled, with some of the files
 ///        written
 void write_openfoam_case(const std::filesystem::path& folder, const VolumeMesh& mesh,
                          const CfdParameters& parameters, const Progress& progress = {},
                          const std::string& provenance = {});
+
+/// A file in a case's folder that says what the case is of; exports write it beside the case.
+inline constexpr const char* kFlowRecordFile = "flow.json";
 
 /// True for a folder that holds a case as write_openfoam_case() wrote it, and nothing else: no
 /// results, no files of others.

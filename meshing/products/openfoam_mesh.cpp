@@ -82,14 +82,13 @@ void write_boundary(const std::filesystem::path& folder, const std::vector<FoamP
     write_file(folder / "boundary", out.text());
 }
 
-/// OpenFOAM reads a word that begins with a digit, '-' or '.' as a number.
+}  // namespace
+
 std::string foam_word(const std::string& name) {
     const char first = name.front();
     const bool letter = (first >= 'a' && first <= 'z') || (first >= 'A' && first <= 'Z');
     return letter || first == '_' ? name : "patch_" + name;
 }
-
-}  // namespace
 
 std::string foam_header(const std::string& kind, const std::string& location,
                         const std::string& object, const std::string& note) {

@@ -19,6 +19,10 @@ struct FoamPatch {
     std::size_t index = 0;  ///< in VolumeMesh::patches
 };
 
+/// The name of a patch in the case: OpenFOAM reads a word that begins with a digit, '-' or '.' as a
+/// number.
+[[nodiscard]] std::string foam_word(const std::string& name);
+
 /// The header of every OpenFOAM file.
 [[nodiscard]] std::string foam_header(const std::string& kind, const std::string& location,
                                       const std::string& object, const std::string& note = {});

@@ -89,6 +89,31 @@ SCENARIO("Several inlets share the flow by area, or as given", "[meshing][inflow
     }
 }
 
+SCENARIO("Outlets share the flow as they are told to", "[meshing][inflow]") {
+    const Surface tube = test::closed_tube(2.0, 8.0, 24, 8);
+    PatchLabels labels = *tube.patch_labels;  // the outlet's disc in parts of 8 and 16 triangles
+    int left = 8;
+    for (std::uint16_t& label : labels)
+        if (label == 2 && left-- > 0) label = 3;
+    const Surface forked = tube.with_patches(std::move(labels), {{"wall", PatchKind::Wall},
+                                                                 {"in", PatchKind::Inlet},
+                                                                 {"wide", PatchKind::Outlet},
+                                                                 {"narrow", PatchKind::Outlet}});
+    THEN("one pressure at all of them gives none of them a flow") {
+        CHECK(flow_summary(forked, {}).outflows.empty());
+    }
+    THEN("the largest takes what the others leave") {
+        const FlowSummary by_area =
+            flow_summary(forked, {.flow = 3.0, .outlets = OutletFlow::Area});
+        REQUIRE(by_area.outflows.size() == 1);
+        CHECK(by_area.outflows[0].name == "narrow");
+        CHECK(by_area.outflows[0].flow == Approx(1.0));
+        const FlowSummary murray =
+            flow_summary(forked, {.flow = 3.0, .outlets = OutletFlow::Cubes});
+        CHECK(murray.outflows[0].flow == Approx(3.0 / (1.0 + std::pow(2.0, 1.5))));
+    }
+}
+
 SCENARIO("Reynolds number and warnings", "[meshing][inflow]") {
     const Surface tube = test::fine_tube(2.0, 8.0, 60);
     GIVEN("the thesis' flow of 1.2 cm^3/s") {
@@ -98,6 +123,13 @@ SCENARIO("Reynolds number and warnings", "[meshing][inflow]") {
             CHECK(summary.inlets[0].reynolds == Approx(95.5).epsilon(0.01));
             CHECK(summary.outlets == 1);
             CHECK(summary.warnings.empty());
+        }
+    }
+    GIVEN("Carreau's blood") {
+        const CfdParameters blood{.viscosity_model = ViscosityModel::Carreau};
+        THEN("it is that of high shear rates") {
+            CHECK(flow_summary(tube, blood).inlets[0].reynolds ==
+                  Approx(flow_summary(tube, {}).inlets[0].reynolds * 4e-3 / 0.00345));
         }
     }
     GIVEN("thirty times that flow, in a bend") {

@@ -1,5 +1,6 @@
 """Typed results of the real program, on small phantoms."""
 import itertools
+import json
 import math
 import os
 from pathlib import Path
@@ -168,6 +169,22 @@ class Models(InFolder):
         ends = vesselbench.ends("tube", settings={"remove-branch.tip": None})
         self.assertEqual([end.number for end in ends], [1, 2])
         self.assertEqual({end.fate for end in ends}, {"opened"})
+
+    def test_a_folder_without_a_case_has_no_flow(self):
+        for call in (vesselbench.run_flow, vesselbench.flow_results):
+            with self.assertRaisesRegex(vesselbench.BadInput, "holds no OpenFOAM case"):
+                call(".")
+
+    def test_a_flow_that_has_not_converged_is_an_answer(self):
+        solution = {"kind": "steady", "solver": "OpenFOAM", "converged": False, "ended_by": "iterations", "iterations": 5,
+                    "largest_change_percent": 9.0, "largest_residual": 0.1}
+        opening = {"name": "inlet", "kind": "inlet", "area_mm2": 3.0, "diameter_mm": 2.0, "flow_cm3_s": 1.2, "pressure_pa": 100}
+        document = {"solution": solution, "figures": {"wall_shear_mean_pa": 2.5}, "definitions": {}, "openings": [opening],
+                    "methods": "The flow", "references": []}
+        stand_in = self.stand_in(f"echo '{json.dumps(document)}'; exit 1")
+        flow = vesselbench.flow_results("case", program=stand_in)
+        self.assertFalse(flow.converged)
+        self.assertEqual((flow.figures["wall_shear_mean_pa"], flow.opening("inlet").flow_cm3_s), (2.5, 1.2))
 
     def test_a_batch_goes_on_after_a_case_that_fails(self):
         Path("cases").mkdir()

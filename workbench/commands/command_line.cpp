@@ -15,6 +15,7 @@
 #include "workbench/commands/cohort_commands.h"
 #include "workbench/commands/command_parser.h"
 #include "workbench/commands/console/crash_report.h"
+#include "workbench/commands/flow_commands.h"
 #include "workbench/commands/measuring_commands.h"
 #include "workbench/commands/preparing_commands.h"
 #include "workbench/commands/project_commands.h"
@@ -107,6 +108,7 @@ void set_up(CommandLine& line) {
     add_recipe_commands(line);
     add_project_commands(line);
     add_measuring_commands(line);
+    add_flow_commands(line);
     add_operations(line);
     add_phantom(line);
     add_doctor(line);

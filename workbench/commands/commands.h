@@ -226,6 +226,7 @@ struct PrepareArguments {
     std::string name;    ///< of the input in the report; empty: the file's
     bool resume = false;
     bool question = false;  ///< a doubt about vessel ends leaves what a batch asks with
+    bool run = false;       ///< solves the flow, and reads its results
     bool json = false;
 };
 
@@ -236,7 +237,8 @@ struct PrepareArguments {
 
 /// Turns the input into a CFD or print model.
 /// \param refused gets the diagnostics of a preparation that stops, as JSON with commands
-void prepare_case(const PrepareArguments& arguments, const Progress& progress,
+/// \return the exit code: 1 if the flow was to be solved, and has not converged
+int prepare_case(const PrepareArguments& arguments, const Progress& progress,
                   const std::function<void(std::string)>& refused);
 
 struct EndsOptions {

@@ -3,11 +3,9 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <sstream>
 #include <thread>
 
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include "geometry/kernel/amounts.h"
 #include "geometry/kernel/diagnosed_error.h"
@@ -20,6 +18,7 @@
 #include "workbench/commands/commands.h"
 #include "workbench/commands/console/console.h"
 #include "workbench/commands/console/crash_report.h"
+#include "workbench/flow/solver_process.h"
 #include "workbench/prepare/bundled_cases.h"
 #include "workbench/review/page_file.h"
 #include "workbench/review/review_page_bytes.h"
@@ -115,14 +114,8 @@ Check page_check() {
 
 Check program_check(const std::string& name, const std::string& program,
                     const std::string& lacking) {
-    const char* path = std::getenv("PATH");
-    std::istringstream folders(path == nullptr ? "" : path);
-    for (std::string folder; std::getline(folders, folder, ':');) {
-        std::error_code ignored;
-        const fs::path file = fs::path(folder) / program;
-        if (fs::is_regular_file(file, ignored) && ::access(file.c_str(), X_OK) == 0)
-            return {name, file.string(), ""};
-    }
+    const fs::path file = installed_program(program);
+    if (!file.empty()) return {name, file.string(), ""};
     return {name, "not found", lacking};
 }
 

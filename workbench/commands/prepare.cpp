@@ -17,7 +17,9 @@
 #include "workbench/colours/shown_measure.h"
 #include "workbench/commands/commands.h"
 #include "workbench/commands/console/messages.h"
+#include "workbench/commands/flow_commands.h"
 #include "workbench/export/products.h"
+#include "workbench/flow/results_json.h"
 #include "workbench/operations/table.h"
 #include "workbench/prepare/acceptance_gate.h"
 #include "workbench/prepare/case_files.h"
@@ -29,6 +31,7 @@
 #include "workbench/review/provenance.h"
 #include "workbench/review/review.h"
 #include "workbench/session/export_record.h"
+#include "workbench/session/source_counterpart.h"
 #include "workbench/session/stored_texts.h"
 
 namespace vesselbench {
@@ -37,19 +40,42 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-void print_prepared(const PrepareArguments& arguments, const PrepareSummary& made) {
+/// The fraction of the progress of `prepare --run` for the model; the rest is for the flow.
+constexpr double kPreparing = 0.3;
+
+Json prepared_json(const PrepareArguments& arguments, const PrepareSummary& made) {
     std::vector<std::string> warnings;
     for (const Diagnostic& warning : made.warnings)
         warnings.push_back(worded_with_operation(warning));
-    std::cout << text_from_json(Json({{"purpose", arguments.purpose},
-                                      {"folder", arguments.out},
-                                      {"project", kProjectFile},
-                                      {"reports", {"report.json", "report.html"}},
-                                      {"products", made.products},
-                                      {"warnings", warnings},
-                                      {"diagnostics", diagnostics_json(made.warnings)}}),
-                                2)
-              << "\n";
+    return {{"purpose", arguments.purpose},
+            {"folder", arguments.out},
+            {"project", kProjectFile},
+            {"reports", {"report.json", "report.html"}},
+            {"products", made.products},
+            {"warnings", warnings},
+            {"diagnostics", diagnostics_json(made.warnings)}};
+}
+
+void print_prepared(const PrepareArguments& arguments, const Purpose& purpose) {
+    const std::filesystem::path out = arguments.out;
+    std::string what = purpose.result + ":";
+    what.resize(std::string("report:      ").size(), ' ');
+    std::cout << what << (out / purpose.result_file).string()
+              << "\nreport:      " << (out / "report.html").string()
+              << "\nproject:     " << (out / kProjectFile).string() << "\n";
+}
+
+/// The rest of `prepare --run`. \return the exit code
+int solve_prepared(const PrepareArguments& arguments, Json document, const Progress& progress) {
+    const FlowResults results = solved_flow({.folder = arguments.out}, progress);
+    if (arguments.json) {
+        document["results"] = results_json(results);
+        std::cout << text_from_json(document, 2) << "\n";
+    } else {
+        std::cout << "\n";
+        print_flow_table(results);
+    }
+    return results.converged ? 0 : 1;
 }
 
 /// \throw IoError if the file is one that the project was made from
@@ -103,11 +129,12 @@ std::vector<std::string> with_ends(std::vector<std::string> settings, const EndA
     return settings;
 }
 
-void prepare_case(const PrepareArguments& arguments, const Progress& progress,
-                  const std::function<void(std::string)>& refused) {
+int prepare_case(const PrepareArguments& arguments, const Progress& progress,
+                 const std::function<void(std::string)>& refused) {
     const Purpose& purpose = find_purpose(arguments.purpose);
-    const std::filesystem::path out = arguments.out;
-    const std::string project = (out / kProjectFile).string();
+    if (arguments.run && !purpose.simulates_flow)
+        throw UsageError("--run solves a flow: it is not for --for " + purpose.name);
+    const std::string project = (std::filesystem::path(arguments.out) / kProjectFile).string();
     const Teller tell(&remark, [&](const Diagnostic& warning) {
         const Audience reader{.project = project, .preparing = true};
         warn(worded_with_operation(warning, reader));
@@ -122,13 +149,13 @@ void prepare_case(const PrepareArguments& arguments, const Progress& progress,
                  .author = arguments.author,
                  .question = arguments.question,
                  .refused = [&](const Json& json) { refused(text_from_json(json)); }},
-                tell, progress);
-    if (arguments.json) return print_prepared(arguments, made);
-    std::string what = purpose.result + ":";
-    what.resize(std::string("report:      ").size(), ' ');
-    std::cout << what << (out / purpose.result_file).string()
-              << "\nreport:      " << (out / "report.html").string() << "\nproject:     " << project
-              << "\n";
+                tell, progress.part(0.0, arguments.run ? kPreparing : 1.0));
+    const Json document = prepared_json(arguments, made);
+    if (!arguments.json)
+        print_prepared(arguments, purpose);
+    else if (!arguments.run)
+        std::cout << text_from_json(document, 2) << "\n";
+    return arguments.run ? solve_prepared(arguments, document, progress.part(kPreparing, 1.0)) : 0;
 }
 
 void make_project(const NewArguments& arguments, const Progress& progress) {
@@ -173,7 +200,8 @@ void export_project(const ExportArguments& arguments, const Progress& progress) 
     const ExportOptions options{
         .flow = flow_in_vessel(flow.parameters(), log),
         .provenance = provenance(session, variant, review),
-        .shown = shown_contents(arguments, session, variant, scene, progress.part(0.6, 0.7))};
+        .shown = shown_contents(arguments, session, variant, scene, progress.part(0.6, 0.7)),
+        .ends = made_ends(session, variant, progress.silent())};
     PendingFiles files;
     export_scene(files, arguments.file, scene, options, progress.part(0.7, 1.0));
     progress.check_cancelled();

@@ -36,7 +36,7 @@ std::string prepare_footer() {
     return input_formats_text() +
            "\nA case is a folder with case.json. --set may be repeated; openfoam.flow=1.5 and the "
            "like\n"
-           "change the flow (density, viscosity, flow, profile, iterations, residual, processes).\n"
+           "change the flow (flow, outlets, profile, density, viscosity, viscosity_model, iterations ...).\n"
            "OUT gets project.vbench, report.json, report.html and\n" +
            product_lines() +
            "\n"
@@ -135,7 +135,7 @@ void add_prepare(CommandLine& line) {
     const auto options = std::make_shared<PrepareArguments>();
     CLI::App& command = add_command(
         line, "prepare", "Make a CFD model or a print model from an image or a surface",
-        [options, &line] { return prepare_case(*options, line.progress, line.refused), 0; });
+        [options, &line] { return prepare_case(*options, line.progress, line.refused); });
     add_input_argument(command, options->input);
     command.footer(prepare_footer());
     add_purpose(command, options->purpose);
@@ -143,6 +143,8 @@ void add_prepare(CommandLine& line) {
     command.add_flag(
         "--resume", options->resume,
         "Continue in the folder's project with the edits of the recipe that are missing");
+    command.add_flag("--run", options->run,
+                     "Solve the flow with OpenFOAM as well, as `run` does, and read its results");
     command
         .add_flag("--question", options->question,
                   "Where ends are in doubt, write what a batch asks with")

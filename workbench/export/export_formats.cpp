@@ -10,6 +10,7 @@
 #include "meshing/products/glb.h"
 #include "meshing/products/product_formats.h"
 #include "workbench/colours/shown_measure.h"
+#include "workbench/flow/flow_record.h"
 #include "workbench/report/colour_scale.h"
 
 namespace vesselbench {
@@ -95,7 +96,9 @@ std::vector<ExportFormat> joined_rows() {
         all.push_back(
             {row, [write = row.write](const Scene& scene, const std::string& path,
                                       const ExportOptions& options, const Progress& progress) {
-                 write(path, volume_mesh_of(scene), options.flow, progress, options.provenance);
+                 const VolumeMesh& mesh = volume_mesh_of(scene);
+                 write(path, mesh, options.flow, progress, options.provenance);
+                 write_flow_record(path, mesh, options.flow, options.provenance, options.ends);
              }});
     return all;
 }

@@ -9,14 +9,16 @@
 #include "meshing/products/cfd_parameters.h"
 #include "workbench/case/scene.h"
 #include "workbench/review/viewer_page.h"
+#include "workbench/session/source_counterpart.h"
 
 namespace vesselbench {
 
 /// What an export adds to the scene, or says beside it; each format takes its own part.
 struct ExportOptions {
-    CfdParameters flow = {};      ///< of a solver's case
-    std::string provenance = {};  ///< line for the file's header, as provenance() makes it
-    ViewerContents shown = {};    ///< of models for viewers: colour; of pages all of it
+    CfdParameters flow = {};         ///< of a solver's case
+    std::string provenance = {};     ///< line for the file's header, as provenance() makes it
+    ViewerContents shown = {};       ///< of models for viewers: colour; of pages all of it
+    std::vector<MadeEnd> ends = {};  ///< of the model, for a solver's case
 };
 
 /// A format that a scene can be exported in.

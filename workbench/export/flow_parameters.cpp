@@ -24,6 +24,13 @@ std::vector<Parameter> flow_parameters() {
             {.name = "inlet_flows",
              .type = Text,
              .help = "flow of each inlet [cm^3/s] in place of it: inlet_1:2.5,inlet_2:1.8"},
+            {.name = "outlets",
+             .type = Choice,
+             .default_value = "zero-pressure",
+             .help = "what leaves through the outlets: what one pressure at all of them gives, or "
+                     "shares by their areas or by the cubes of their diameters (Murray), the rest "
+                     "through the largest",
+             .choices = {"zero-pressure", "area", "cubes"}},
             {.name = "profile",
              .type = Choice,
              .default_value = "parabolic",
@@ -39,9 +46,15 @@ std::vector<Parameter> flow_parameters() {
             {.name = "viscosity",
              .unit = "Pa s",
              .default_value = d.viscosity,
-             .help = "dynamic viscosity of blood, constant for all shear rates",
+             .help = "dynamic viscosity of Newtonian blood, the same for all shear rates",
              .minimum = 0.0,
              .above_minimum = true},
+            {.name = "viscosity_model",
+             .type = Choice,
+             .default_value = "newtonian",
+             .help = "newtonian: viscosity; carreau: falls from 0.056 to 0.00345 Pa s with the "
+                     "shear rate (Cho, Kensey 1991)",
+             .choices = {"newtonian", "carreau"}},
             {.name = "iterations",
              .type = Integer,
              .default_value = std::int64_t{d.iterations},
@@ -86,6 +99,12 @@ std::vector<NamedFlow> flows_in(const std::string& text) {
     return flows;
 }
 
+OutletFlow outlet_flow_in(const std::string& text) {
+    return text == "area"    ? OutletFlow::Area
+           : text == "cubes" ? OutletFlow::Cubes
+                             : OutletFlow::ZeroPressure;
+}
+
 }  // namespace
 
 CfdParameters flow_from(const Arguments& arguments) {
@@ -103,6 +122,11 @@ CfdParameters flow_from(const Arguments& arguments) {
     if (arguments.has("profile"))
         flow.profile =
             arguments.text("profile") == "plug" ? InflowProfile::Plug : InflowProfile::Parabolic;
+    if (arguments.has("outlets")) flow.outlets = outlet_flow_in(arguments.text("outlets"));
+    if (arguments.has("viscosity_model"))
+        flow.viscosity_model = arguments.text("viscosity_model") == "carreau"
+                                   ? ViscosityModel::Carreau
+                                   : ViscosityModel::Newtonian;
     if (arguments.has("iterations"))
         flow.iterations = static_cast<int>(arguments.integer("iterations"));
     if (arguments.has("processes"))

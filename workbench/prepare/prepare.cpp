@@ -33,6 +33,7 @@
 #include "workbench/prepare/vessel_question.h"
 #include "workbench/review/provenance.h"
 #include "workbench/session/export_record.h"
+#include "workbench/session/source_counterpart.h"
 #include "workbench/session/stored_texts.h"
 
 namespace vesselbench {
@@ -210,11 +211,12 @@ void tell_remaining(const std::vector<std::string>& names, const Teller& tell) {
                    .words = {{"files", enumerated(names)}}});
 }
 
-void write_products(PendingFiles& files, const Session& session, const PrepareOptions& options,
+void write_products(PendingFiles& files, Session& session, const PrepareOptions& options,
                     PreparedCase& prepared, const Progress& progress) {
     const ExportOptions how{
         .flow = prepared.flow,
-        .provenance = provenance(session, options.purpose, review_of(session, options.purpose))};
+        .provenance = provenance(session, options.purpose, review_of(session, options.purpose)),
+        .ends = made_ends(session, options.purpose, progress.silent())};
     const std::vector<std::string> names = product_names(options.purpose);
     const auto done = [&](std::size_t count) {
         return static_cast<double>(count) / static_cast<double>(names.size());

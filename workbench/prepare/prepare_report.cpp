@@ -90,11 +90,14 @@ Json flow_json(const FlowSummary& summary, const CfdParameters& flow) {
                           {"mean_velocity_m_s", inlet.mean_velocity},
                           {"reynolds", inlet.reynolds}});
     Json json = {{"density_kg_m3", flow.density},
-                 {"viscosity_pa_s", flow.viscosity},
+                 {"viscosity_pa_s", viscosity_at_shear(flow)},
                  {"flow_cm3_s", flow.flow},
                  {"profile", flow.profile == InflowProfile::Plug ? "plug" : "parabolic"},
                  {"inlets", inlets},
                  {"outlets", summary.outlets}};
+    if (flow.viscosity_model == ViscosityModel::Carreau) json["viscosity_model"] = "Carreau";
+    for (const GivenOutflow& outlet : summary.outflows)
+        json["outflows_cm3_s"][outlet.name] = outlet.flow;
     if (flow.split) json["split"] = *flow.split == FlowSplit::Cubes ? "cubes" : "area";
     return json;
 }

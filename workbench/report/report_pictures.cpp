@@ -91,6 +91,18 @@ std::vector<ReportPicture> report_pictures(const Surface& surface,
     return pictures;
 }
 
+std::vector<ReportPicture> measure_pictures(const Surface& surface,
+                                            const std::vector<double>& values,
+                                            const ColourScale& scale, const std::string& title) {
+    Series series;
+    series.add(title, colours_of(values, scale));
+    const std::vector<Picture> drawn = draw_views(surface, series.views);
+    std::vector<ReportPicture> pictures;
+    for (std::size_t i = 0; i < drawn.size(); ++i)
+        pictures.push_back({series.titles[i], png(with_scale(drawn[i], scale, title))});
+    return pictures;
+}
+
 double deviation_of_full_colour(std::vector<double> deviations) {
     if (deviations.empty()) return 1.0;
     for (double& deviation : deviations) deviation = std::abs(deviation);

@@ -7,6 +7,7 @@
 
 #include "geometry/kernel/surface.h"
 #include "gpu/picture.h"
+#include "workbench/report/colour_scale.h"
 #include "workbench/report/report_html.h"
 #include "workbench/report/source_parts.h"
 
@@ -26,6 +27,14 @@ struct PictureSource {
 /// are any. \throw GpuUnavailable without usable OpenGL
 [[nodiscard]] std::vector<ReportPicture> report_pictures(
     const Surface& surface, const std::optional<PictureSource>& source);
+
+/// The surface from the same sides, coloured by a measure of its vertices, with its scale.
+/// \param values #V \param title of the scale and of the pictures: "Wall shear stress [Pa]"
+/// \throw GpuUnavailable without usable OpenGL
+[[nodiscard]] std::vector<ReportPicture> measure_pictures(const Surface& surface,
+                                                          const std::vector<double>& values,
+                                                          const ColourScale& scale,
+                                                          const std::string& title);
 
 /// The deviation shown in full colour [mm]: 98 % are below it; 1 if there is none.
 [[nodiscard]] double deviation_of_full_colour(std::vector<double> deviations);

@@ -11,24 +11,24 @@ are in mm, areas in mm^2, volumes in mm^3, angles in degrees, places in patient 
 
 The program is the argument `program`, else the environment variable VESSELBENCH, else the `vesselbench` of the PATH.
 """
-from .commands import (batch, centerlines, doctor, ends, measure, operation, operations, phantom, picture, prepare, run,
-                       version)
+from .commands import (batch, centerlines, doctor, ends, flow_results, measure, operation, operations, phantom, picture,
+                       prepare, run, run_flow, version)
 from .errors import (BadInput, Cancelled, ModelRefused, ProgramNotFound, UnexpectedAnswer, UsageError, VesselbenchError)
 from .project import Prepared, Project
 from .results import (Audit, AuditEntry, Batch, BatchCase, BatchFailure, Branch, CaseFailure, Centerlines, Change, Check,
-                      Deviation, Diagnostic, Dismissal, Edit, End, Exported, Finding, Findings, Histogram, Log,
-                      MeanCurvature, MeanMax, Measures, MinMean, MinMeanMax, Moved, Node, NotSearched, Odds, Operation,
-                      Parameter, Patch, Phantom, Reading, Remedy, Replay, ReplayedEdit, Review, ReviewedEdit, State,
-                      Treatment)
+                      Deviation, Diagnostic, Dismissal, Edit, End, Exported, Finding, Findings, FlowOpening, FlowResults,
+                      FlowSolution, Histogram, Log, MeanCurvature, MeanMax, Measures, MinMean, MinMeanMax, Moved, Node,
+                      NotSearched, Odds, Operation, Parameter, Patch, Phantom, Reading, Remedy, Replay, ReplayedEdit,
+                      Review, ReviewedEdit, State, Treatment)
 
 __all__ = [
-    "batch", "centerlines", "doctor", "ends", "measure", "operation", "operations", "phantom", "picture", "prepare", "run",
-    "version",
+    "batch", "centerlines", "doctor", "ends", "flow_results", "measure", "operation", "operations", "phantom", "picture",
+    "prepare", "run", "run_flow", "version",
     "BadInput", "Cancelled", "ModelRefused", "ProgramNotFound", "UnexpectedAnswer", "UsageError", "VesselbenchError",
     "Prepared", "Project",
     "Audit", "AuditEntry", "Batch", "BatchCase", "BatchFailure", "Branch", "CaseFailure", "Centerlines", "Change", "Check",
-    "Deviation", "Diagnostic", "Dismissal", "Edit", "End", "Exported", "Finding", "Findings", "Histogram", "Log",
-    "MeanCurvature", "MeanMax", "Measures", "MinMean", "MinMeanMax", "Moved", "Node", "NotSearched", "Odds", "Operation",
-    "Parameter", "Patch", "Phantom", "Reading", "Remedy", "Replay", "ReplayedEdit", "Review", "ReviewedEdit", "State",
-    "Treatment",
+    "Deviation", "Diagnostic", "Dismissal", "Edit", "End", "Exported", "Finding", "Findings", "FlowOpening", "FlowResults",
+    "FlowSolution", "Histogram", "Log", "MeanCurvature", "MeanMax", "Measures", "MinMean", "MinMeanMax", "Moved", "Node",
+    "NotSearched", "Odds", "Operation", "Parameter", "Patch", "Phantom", "Reading", "Remedy", "Replay", "ReplayedEdit",
+    "Review", "ReviewedEdit", "State", "Treatment",
 ]

@@ -16,7 +16,7 @@ from .errors import ModelRefused, UnexpectedAnswer, VesselbenchError
 from .program import PathLike, Program, answer, output_of
 from .project import Prepared
 from .reading import read, read_all
-from .results import Batch, Centerlines, Check, End, Measures, Operation, Phantom
+from .results import Batch, Centerlines, Check, End, FlowResults, Measures, Operation, Phantom
 
 REPORT, PROJECT = "report.json", "project.vbench"
 
@@ -84,6 +84,20 @@ def batch(cases: PathLike, purpose: str, out: PathLike, *, settings: Mapping[str
     """
     words = [*option_words({"for": purpose, "out": out, **options}), *setting_words(settings)]
     return read(Batch, answer("batch", words, [os.fspath(cases)], program), "batch")
+
+
+def run_flow(folder: PathLike, *, program: Program = None, **options: Option) -> FlowResults:
+    """The command `run`: solves the flow of a folder that `prepare` for cfd made, or of an exported OpenFOAM case.
+
+    A flow that has not converged is an answer too: see `converged`.
+    options: processes, out: folder that gets the results
+    """
+    return read(FlowResults, answer("run", option_words(options), [os.fspath(folder)], program), "run")
+
+
+def flow_results(folder: PathLike, *, program: Program = None, **options: Option) -> FlowResults:
+    """The command `results`: reads what was solved there. options: out: folder that gets files"""
+    return read(FlowResults, answer("results", option_words(options), [os.fspath(folder)], program), "results")
 
 
 def measure(surface: PathLike, reference: PathLike | None = None, *, program: Program = None,

@@ -468,6 +468,52 @@ class Operation(Result):
         return _named({parameter.name: parameter for parameter in self.parameters}, name, "parameter")
 
 
+# --- run, results ----------------------------------------------------------------------------------------------------
+@dataclass(frozen=True)
+class FlowSolution(Result):
+    """How a flow was solved."""
+
+    kind: str  #: steady
+    solver: str
+    converged: bool
+    ended_by: str  #: figures, residuals; iterations: it has not converged
+    iterations: int
+    largest_change_percent: float  #: of a figure over the last 50 iterations
+    largest_residual: float
+
+
+@dataclass(frozen=True)
+class FlowOpening(Result):
+    name: str
+    kind: str
+    area_mm2: float
+    diameter_mm: float
+    flow_cm3_s: float  #: in through an inlet, out of an outlet
+    pressure_pa: float  #: mean
+    reynolds: float | None = None  #: of an inlet
+
+
+@dataclass(frozen=True)
+class FlowResults(Result):
+    """Of a steady flow."""
+
+    solution: FlowSolution
+    figures: Mapping[str, float]  #: their names end in their units
+    definitions: Mapping[str, str]  #: of the figures
+    openings: tuple[FlowOpening, ...]
+    methods: str = field(repr=False)  #: a paragraph for a paper
+    references: tuple[str, ...] = field(repr=False)
+
+    @property
+    def converged(self) -> bool:
+        """Whether the figures can be used."""
+        return self.solution.converged
+
+    def opening(self, name: str) -> FlowOpening:
+        """The opening of this name. KeyError if there is none."""
+        return _named({opening.name: opening for opening in self.openings}, name, "opening")
+
+
 @dataclass(frozen=True)
 class Phantom(Result):
     """Files of a vessel whose true surface is known."""

@@ -25,6 +25,7 @@
 #include "workbench/review/provenance.h"
 #include "workbench/review/review.h"
 #include "workbench/session/export_record.h"
+#include "workbench/session/source_counterpart.h"
 #include "workbench/session/stored_texts.h"
 #include "workbench/window/case/rail.h"
 #include "workbench/window/case/readable.h"
@@ -441,7 +442,8 @@ void Document::export_to(const std::filesystem::path& file,
         export_scene(files, file, scene,
                      {.flow = flow_in_vessel(flow.parameters(), session.log(variant)),
                       .provenance = provenance(session, variant, review),
-                      .shown = {.title = shown_name(session), .purpose = model_title(variant)}},
+                      .shown = {.title = shown_name(session), .purpose = model_title(variant)},
+                      .ends = made_ends(session, variant, progress.silent())},
                      progress.part(0.7, 1.0));
         progress.check_cancelled();
         files.commit();

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geometry/kernel/measure.h"
+#include "meshing/products/cfd_parameters.h"
+#include "meshing/tetrahedra/volume_mesh.h"
+#include "workbench/session/source_counterpart.h"
+
+namespace vesselbench {
+
+/// An opening of a solver's case.
+struct RecordedOpening {
+    std::string name;  ///< of the patch in the case
+    PatchKind kind = PatchKind::Outlet;
+    double area = 0.0;                              ///< [mm^2]
+    double diameter = 0.0;                          ///< of a disc of that area [mm]
+    std::optional<double> flow = std::nullopt;      ///< given, of an inlet [cm^3/s]
+    std::optional<double> reynolds = std::nullopt;  ///< of an inlet [-]
+};
+
+/// What a solver's case is of: flow.json in its folder, for whoever runs it or reads its results.
+struct FlowRecord {
+    std::string provenance;  ///< of the model; empty: not known
+    std::string mesh;        ///< SHA-256 of the mesh's files
+    std::size_t cells = 0;
+    Bounds bounds;                ///< [mm]
+    double density = 0.0;         ///< [kg/m^3]
+    double viscosity = 0.0;       ///< dynamic; of Carreau's model that of high shear rates [Pa s]
+    bool carreau = false;         ///< viscosity depends on the shear rate
+    bool given_outflows = false;  ///< through all outlets but the largest; else one pressure at all
+    bool parabolic = true;        ///< profile at the inlets; else plug
+    std::vector<std::string> walls;  ///< names of the patches
+    std::vector<RecordedOpening> openings;
+    /// Where the vessel was cut and extended: beyond them, the wall is not its own. Empty: not
+    /// known.
+    std::vector<MadeEnd> ends;
+};
+
+/// Writes flow.json into the folder of a case, which is complete otherwise.
+/// \param ends where the vessel was cut and extended
+/// \throw IoError, AlgorithmFailure as flow_summary()
+void write_flow_record(const std::filesystem::path& folder, const VolumeMesh& mesh,
+                       const CfdParameters& parameters, const std::string& provenance,
+                       const std::vector<MadeEnd>& ends = {});
+
+/// \throw InvalidInput if the case has none, or a damaged one
+[[nodiscard]] FlowRecord read_flow_record(const std::filesystem::path& folder);
+
+/// \throw InvalidInput unless the case's mesh is the one that it was written with
+void require_recorded_mesh(const std::filesystem::path& folder, const FlowRecord& record);
+
+}  // namespace vesselbench

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geometry/kernel/surface.h"
+#include "workbench/flow/flow_case.h"
+#include "workbench/flow/flow_tables.h"
+#include "workbench/flow/flow_watch.h"
+
+namespace vesselbench {
+
+/// The wall of a solved case with what the blood does to it.
+struct FlowWall {
+    Surface surface;                ///< [mm], triangles outward
+    std::vector<Vec3> shear;        ///< stress that the blood exerts on the wall, #T [Pa]
+    std::vector<double> pressure;   ///< static, relative to the outlets', #T [Pa]
+    std::vector<double> areas;      ///< #T [mm^2]
+    std::vector<double> own_areas;  ///< the same; 0 where the wall is not the vessel's own [mm^2]
+};
+
+/// Magnitudes of the wall shear stress over a region, weighted by area [Pa].
+struct ShearFigures {
+    double area = 0.0;  ///< [mm^2]
+    double mean = 0.0, median = 0.0, p1 = 0.0, p5 = 0.0, p95 = 0.0, p99 = 0.0, largest = 0.0;
+    double low_area = 0.0;  ///< where it is below kLowShear [mm^2]
+};
+
+/// Low wall shear stress [Pa]. Source: Malek, Alper, Izumo, "Hemodynamic shear stress and its role
+/// in atherosclerosis", JAMA 282, 1999: below 4 dyn/cm^2 endothelium is prone to atherosclerosis.
+inline constexpr double kLowShear = 0.4;
+
+struct OpeningFigures {
+    RecordedOpening recorded;
+    double flow = 0.0;  ///< in its own direction: in through an inlet, out of an outlet [cm^3/s]
+    double pressure = 0.0;  ///< static, mean over its area [Pa]
+};
+
+/// The figures of a solved steady flow.
+struct FlowResults {
+    FlowCase flow;
+    double time = 0.0;  ///< iterations of the solver until the fields were written
+    FlowHistory history;
+    Settling settling;
+    bool converged = false;  ///< by figures or residuals
+    std::string solver;      ///< "OpenFOAM 1912"; "OpenFOAM" where its log is missing
+    FlowWall wall;
+    ShearFigures shear;  ///< of the vessel's own wall: without what was cut and extended
+    std::vector<OpeningFigures> openings;
+    double pressure_drop = 0.0;  ///< [Pa]
+    double imbalance = 0.0;      ///< what flows in and not out, as a fraction of the inflow [-]
+};
+
+/// Magnitudes of vectors.
+[[nodiscard]] std::vector<double> magnitudes(const std::vector<Vec3>& vectors);
+
+/// \param areas of the places of the values, at least one above 0
+[[nodiscard]] ShearFigures shear_figures(const std::vector<double>& values,
+                                         const std::vector<double>& areas);
+
+/// Reads the last time of a case that was written whole. OpenFOAM's shear stress is by density, and
+/// has the direction of the wall's force on the blood: both are turned here.
+/// \throw InvalidInput if it has not been run, if fields are missing or of another mesh, or if the
+/// surface of the preparation that it is in is of another mesh
+[[nodiscard]] FlowResults read_flow_results(const FlowCase& flow);
+
+}  // namespace vesselbench

@@ -1,0 +1,91 @@
+#include "workbench/flow/methods_text.h"
+
+#include <algorithm>
+
+#include "geometry/kernel/wording.h"
+
+namespace vesselbench {
+
+namespace {
+
+std::string inlets_text(const FlowResults& results) {
+    std::vector<std::string> texts;
+    for (const OpeningFigures& opening : results.openings) {
+        const RecordedOpening& recorded = opening.recorded;
+        if (recorded.kind != PatchKind::Inlet) continue;
+        std::string text = recorded.name + formatted(opening.flow, " (%.4g ml/s") +
+                           formatted(recorded.diameter, ", diameter %.3g mm");
+        if (recorded.reynolds) text += formatted(*recorded.reynolds, ", Reynolds number %.0f");
+        texts.push_back(text + ")");
+    }
+    return enumerated(texts);
+}
+
+std::string fluid_text(const FlowRecord& record) {
+    const std::string density = formatted(record.density, "density %g kg/m^3");
+    if (!record.carreau)
+        return "incompressible Newtonian fluid (" + density +
+               formatted(record.viscosity, ", dynamic viscosity %g Pa s)");
+    return "incompressible fluid of " + density + " with the viscosity of Carreau's model" +
+           formatted(carreau::kAtRest, " (%g Pa s at rest,") +
+           formatted(carreau::kAtShear, " %g Pa s at high shear rates,") +
+           formatted(carreau::kTime, " lambda %g s,") + formatted(carreau::kExponent, " n %g [4])");
+}
+
+std::string run_end_text(const FlowResults& results) {
+    const SettlingLimits limits;
+    if (results.settling.settled)
+        return "The iterations ended when pressures, flows and the mean wall shear stress had "
+               "changed by less than" +
+               formatted(100.0 * limits.change, " %g %%") + " over " +
+               std::to_string(limits.window) + " iterations and all initial residuals were below" +
+               formatted(limits.residual, " %g") + ": after " + time_name(results.time) +
+               " iterations (largest residual" + formatted(results.settling.residual, " %.1e") +
+               ").";
+    return results.converged
+               ? "The iterations ended when the residual control was reached: after " +
+                     time_name(results.time) + " iterations."
+               : "The solution had NOT converged when it ended after " + time_name(results.time) +
+                     " iterations (largest residual" +
+                     formatted(results.settling.residual, " %.1e") + ").";
+}
+
+}  // namespace
+
+std::string methods_text(const FlowResults& results) {
+    const FlowRecord& record = results.flow.record;
+    return "The flow was computed as steady, laminar flow of an " + fluid_text(record) +
+           " through rigid walls without slip, with the finite-volume solver simpleFoam of " +
+           results.solver + " [1] (SIMPLEC algorithm [2], second-order schemes), on a mesh of " +
+           std::to_string(record.cells) + " cells. " +
+           (record.parabolic ? "The profile of developed laminar flow" : "A uniform velocity") +
+           " was prescribed at " + inlets_text(results) +
+           (record.given_outflows
+                ? "; flows were prescribed at all outlets but the largest, whose pressure was 0. "
+                : "; the pressure was 0 at all outlets, where backflow entered at rest. ") +
+           run_end_text(results) + " The imbalance of mass was" +
+           formatted(100.0 * results.imbalance, " %.2g %%") +
+           " of the inflow. Wall shear stress is the tangential stress that the blood exerts on "
+           "the "
+           "wall; means and percentiles are weighted by area, over the vessel's own wall without "
+           "its extensions. It is of a steady flow, and no average over a cardiac cycle. Low wall "
+           "shear stress is below" +
+           formatted(kLowShear, " %g Pa [3].");
+}
+
+std::vector<std::string> method_references(const FlowResults& results) {
+    std::vector<std::string> references = {
+        "Weller HG, Tabor G, Jasak H, Fureby C. A tensorial approach to computational continuum "
+        "mechanics using object-oriented techniques. Computers in Physics 12 (1998), 620-631.",
+        "Van Doormaal JP, Raithby GD. Enhancements of the SIMPLE method for predicting "
+        "incompressible fluid flows. Numerical Heat Transfer 7 (1984), 147-163.",
+        "Malek AM, Alper SL, Izumo S. Hemodynamic shear stress and its role in atherosclerosis. "
+        "JAMA 282 (1999), 2035-2042."};
+    if (results.flow.record.carreau)
+        references.emplace_back(
+            "Cho YI, Kensey KR. Effects of the non-Newtonian viscosity of blood on flows in a "
+            "diseased arterial vessel. Part 1: Steady flows. Biorheology 28 (1991), 241-262.");
+    return references;
+}
+
+}  // namespace vesselbench
