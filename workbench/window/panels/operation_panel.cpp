@@ -229,10 +229,11 @@ void draw_run(PanelContext& c, bool any, float width) {
 
 void draw_apply(PanelContext& c, const OperationForm& form, bool runs, float width) {
     const bool change = form.edit().has_value();
-    const std::string verb = change ? "Change" : "Apply";
+    const char* verb = change ? "Change" : "Apply";
+    const char* both = change ? "Change and run" : "Apply and run";
     const std::string help =
         change ? "Run the edit with these values" : "Run and add it as an edit; can be undone";
-    if (button(c.ui, "operation.apply", runs ? verb + " and run" : verb,
+    if (button(c.ui, "operation.apply", runs ? both : verb,
                {.primary = true,
                 .enabled = c.place.can_apply(),
                 .width = width,
