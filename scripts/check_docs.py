@@ -4,6 +4,7 @@
   scripts/check_docs.py links                  every relative link and anchor leads somewhere, and what the site needs holds
   scripts/check_docs.py commands [--program P] every command in blocks and in `code` exists, with its options and parameters
   scripts/check_docs.py run [--program P] [PAGE]...   the blocks of README.md and docs/user run
+  scripts/check_docs.py pictures               every word on a picture of the window is one that the window has
   scripts/check_docs.py site                   mkdocs makes a site without a network; its search answers what users ask
 
 A block ```sh is run in a folder of its page, in which `vesselbench prepare aneurysm --for cfd --out case` has run; then the
@@ -349,11 +350,40 @@ def site_build_faults():
         return [*network_faults(site), *asset_faults(site), *search_faults(site)]
 
 
+def literals(folder):
+    """What the sources below a folder say, in one text of small letters: their string literals, with blanks for - and _."""
+    found = []
+    for place, _, names in sorted(os.walk(os.path.join(ROOT, folder))):
+        for name in sorted(names):
+            if name.endswith((".cpp", ".h")):
+                with open(os.path.join(place, name)) as file:
+                    found += re.findall(r'"((?:[^"\\\n]|\\.)*)"', file.read())
+    return "\n".join(found).lower().replace("-", " ").replace("_", " ")
+
+
+def picture_faults(pictures="docs/pictures", sources="workbench"):
+    """A word on a picture of the window that the window no longer has: the picture is of an older one. labels.json beside the
+    pictures has the words, as scripts/screenshots wrote them; numbers and names of files are left out."""
+    with open(os.path.join(ROOT, pictures, "labels.json")) as file:
+        labels = json.load(file)
+    said = literals(sources)
+    for picture, words in labels.items():
+        if not os.path.exists(os.path.join(ROOT, pictures, picture + ".png")):
+            yield f"{pictures}/labels.json: there is no {picture}.png"
+        for label in words:
+            for part in re.split(r"[^a-z' ]+", label.lower()):
+                if len(part.strip()) > 2 and part.strip() not in said and "." not in label:
+                    yield f"{pictures}/{picture}.png: the window no longer says '{label}'; make the picture again"
+                    break
+
+
 def faults_of(part, program, chosen):
     if part == "run":
         return list(run(program, chosen))
     if part == "site":
         return site_build_faults()
+    if part == "pictures":
+        return list(picture_faults())
     if part == "links":
         return [fault for page in pages() for fault in (*link_faults(page), *site_faults(page))]
     return [fault for page in pages() for fault in (*block_faults(page, program), *code_faults(page, program))]
@@ -361,7 +391,7 @@ def faults_of(part, program, chosen):
 
 def main():
     parser = common.parser(__doc__)
-    parser.add_argument("part", choices=["links", "commands", "run", "site"])
+    parser.add_argument("part", choices=["links", "commands", "run", "site", "pictures"])
     parser.add_argument("--program", default=common.PROGRAM)
     parser.add_argument("pages", nargs="*")
     options = parser.parse_args()

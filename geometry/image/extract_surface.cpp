@@ -9,6 +9,7 @@
 #include "geometry/image/iso_surface.h"
 #include "geometry/image/missing_voxels.h"
 #include "geometry/image/resample.h"
+#include "geometry/image/sampled_levels.h"
 #include "geometry/image/separating_field.h"
 #include "geometry/image/shells.h"
 #include "geometry/image/voxel_band.h"
@@ -420,6 +421,13 @@ void add_distance(const Field& field, const ImageSource& source,
 
 }  // namespace
 
+namespace {
+
+/// Levels are found in so many within the time that a surface takes.
+constexpr std::size_t kSampledVoxels = std::size_t{1} << 18;
+
+}  // namespace
+
 bool takes_voxels(ExtractionMethod method) {
     return method == ExtractionMethod::Labels || method == ExtractionMethod::Wall;
 }
@@ -485,9 +493,9 @@ std::optional<double> SurfaceExtractor::volume_error(const ExtractionParameters&
     if (!has_levels(*source_, result)) return std::nullopt;
     const Field field = intensity_field(*source_, parameters, result, progress.part(0.0, 0.3));
     try {
-        const LevelField found =
-            find_levels(field.image, field.iso, body_of(parameters), progress.part(0.3, 1.0));
-        return found.wall.volume_at_threshold - 1.0;
+        return volume_at_threshold(field.image, field.iso, body_of(parameters), kSampledVoxels,
+                                   progress.part(0.3, 1.0)) -
+               1.0;
     } catch (const AlgorithmFailure&) {
         return std::nullopt;
     }

@@ -10,6 +10,7 @@
 #include "geometry/image/grid_blur.h"
 #include "geometry/image/local_contrast.h"
 #include "geometry/image/occupancy.h"
+#include "geometry/image/sampled_levels.h"
 #include "geometry/image/vessel_block.h"
 #include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
@@ -208,6 +209,99 @@ LevelField find_levels(const Image& image, double threshold, const VesselBody& b
     synthesis.solve(progress);
     return {.levels = with_part(image, block, synthesis.levels(), static_cast<float>(threshold)),
             .wall = synthesis.wall_levels()};
+}
+
+namespace {
+
+constexpr int kBox = 40;                ///< edge of a sample [voxels]
+constexpr std::size_t kFewInside = 64;  ///< voxels of the vessel: fewer have no wall to speak of
+
+/// A box of an image with the vessel's voxels in it.
+struct VesselSample {
+    VoxelBlock block;
+    std::size_t inside = 0;
+    std::size_t first = 0;  ///< offset of one of them in the image
+};
+
+/// The boxes of a grid that the vessel passes through.
+std::vector<VesselSample> boxes_of(const Image& image, const Values& inside) {
+    std::array<int, 3> count{};
+    for (std::size_t a = 0; a < 3; ++a) count[a] = (image.size[a] + kBox - 1) / kBox;
+    std::vector<VesselSample> boxes(static_cast<std::size_t>(count[0] * count[1] * count[2]));
+    for (int k = 0; k < image.size[2]; ++k)
+        for (int j = 0; j < image.size[1]; ++j)
+            for (int i = 0; i < image.size[0]; ++i) {
+                const std::size_t v = image.offset(i, j, k);
+                if (inside[v] < 0.0f) continue;
+                const std::array<int, 3> at = {i / kBox, j / kBox, k / kBox};
+                VesselSample& box =
+                    boxes[static_cast<std::size_t>((at[2] * count[1] + at[1]) * count[0] + at[0])];
+                for (std::size_t a = 0; a < 3; ++a) {
+                    box.block.from[a] = at[a] * kBox;
+                    box.block.size[a] = std::min(kBox, image.size[a] - at[a] * kBox);
+                }
+                box.first = v;
+                ++box.inside;
+            }
+    std::erase_if(boxes, [](const VesselSample& box) { return box.inside < kFewInside; });
+    return boxes;
+}
+
+/// The first, and then every so many, so that they have about `most` voxels.
+std::vector<VesselSample> spread_over(const std::vector<VesselSample>& boxes, std::size_t most) {
+    std::size_t voxels = 0;
+    for (const VesselSample& box : boxes) voxels += box.block.voxel_count();
+    const std::size_t every = std::max<std::size_t>(1, (voxels + most - 1) / most);
+    std::vector<VesselSample> chosen;
+    for (std::size_t i = every / 2; i < boxes.size(); i += every) chosen.push_back(boxes[i]);
+    return chosen;
+}
+
+Vec3 place_of(const Image& image, std::size_t offset) {
+    const auto row = static_cast<std::size_t>(image.size[0]),
+               column = static_cast<std::size_t>(image.size[1]);
+    return image.to_patient(Vec3(static_cast<double>(offset % row),
+                                 static_cast<double>(offset / row % column),
+                                 static_cast<double>(offset / row / column)));
+}
+
+/// By the vessel's voxels in the boxes; those that are not like a vessel say nothing.
+double ratio_in(const Image& image, double threshold, const std::vector<VesselSample>& boxes,
+                const Progress& progress) {
+    double at_threshold = 0.0, at_levels = 0.0;
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        const double share = 1.0 / static_cast<double>(boxes.size());
+        const double done = static_cast<double>(i) * share;
+        try {
+            Synthesis synthesis(part_of(image, boxes[i].block), threshold,
+                                {.seed = place_of(image, boxes[i].first)});
+            synthesis.solve(progress.part(done, done + share));
+            const auto voxels = static_cast<double>(boxes[i].inside);
+            at_threshold += voxels;
+            at_levels += voxels / synthesis.wall_levels().volume_at_threshold;
+        } catch (const AlgorithmFailure&) {
+            continue;
+        }
+    }
+    if (at_levels == 0.0) throw AlgorithmFailure("no part of the image is like a blurred vessel");
+    return at_threshold / at_levels;
+}
+
+}  // namespace
+
+double volume_at_threshold(const Image& image, double threshold, const VesselBody& body,
+                           std::size_t most, const Progress& progress) {
+    const VoxelBlock block = block_around_vessel(image, threshold, body);
+    if (block.voxel_count() <= most)
+        return find_levels(image, threshold, body, progress).wall.volume_at_threshold;
+    const Image part = part_of(image, block);
+    Values inside(part.voxel_count());
+    for_each_vertex(inside.size(), [&](std::size_t v) {
+        inside[v] = (*part.voxels)[v] - static_cast<float>(threshold);
+    });
+    keep_vessel(part, body, inside);
+    progress.check_cancelled();
+    return ratio_in(part, threshold, spread_over(boxes_of(part, inside), most), progress);
 }
 
 }  // namespace vesselbench

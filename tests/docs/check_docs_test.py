@@ -39,6 +39,19 @@ class Pages(unittest.TestCase):
             with self.subTest(target):
                 self.assertEqual(len(list(check_docs.link_faults(self.write(f"[x]({target})")))), 1)
 
+    def test_words_on_pictures_are_the_windows(self):
+        for folder in ("docs/pictures", "workbench"):
+            os.makedirs(os.path.join(check_docs.ROOT, folder))
+        self.write('button("Apply and run"); row("clip-opening"); counted(n, "warning");', page="workbench/panel.cpp")
+        self.write("", page="docs/pictures/form.png")
+        for words, faults in ((["Apply and run", "Clip opening", "Read 3 warnings", "tube.vbench"], 1),
+                              (["Apply", "3 warning"], 0), (["Apply now"], 1)):
+            with self.subTest(words):
+                self.write(check_docs.json.dumps({"form": words}), page="docs/pictures/labels.json")
+                self.assertEqual(len(list(check_docs.picture_faults())), faults)
+        self.write('{"none": []}', page="docs/pictures/labels.json")
+        self.assertEqual(len(list(check_docs.picture_faults())), 1)
+
     def test_links_in_blocks_and_code_are_none(self):
         self.assertEqual(list(check_docs.link_faults(self.write("`[x](none.md)`", "```text", "[x](none.md)", "```"))), [])
 

@@ -1,5 +1,7 @@
 #include "geometry/image/level_field.h"
 
+#include "geometry/image/sampled_levels.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -141,6 +143,18 @@ SCENARIO("A vessel that its core does not fill is said to be uncertain", "[geome
     const WallLevels wall = find_levels(helix(0.6, voxel, voxel, 0.0).image, 200.0, {}).wall;
     CHECK(wall.core < 0.9);
     CHECK(wall.volume_error > 0.05);
+}
+
+SCENARIO("Samples of a large image say how far one threshold is off", "[geometry][image]") {
+    const Vec3 voxel = Vec3::Constant(0.25);
+    const Image image = helix(1.2, voxel, 1.2 * voxel, 0.02).image;
+    for (const double threshold : {220.0, 350.0, 450.0}) {
+        CAPTURE(threshold);
+        const double whole = volume_at_threshold(image, threshold, {}, image.voxel_count());
+        CHECK(whole == find_levels(image, threshold, {}).wall.volume_at_threshold);
+        CHECK(volume_at_threshold(image, threshold, {}, 100'000) == Approx(whole).margin(0.03));
+    }
+    CHECK(volume_at_threshold(image, 220.0, {}, 100'000) > 1.05);
 }
 
 SCENARIO("Levels follow the image's values", "[geometry][image]") {

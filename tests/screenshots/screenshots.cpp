@@ -1,5 +1,6 @@
 // Draws every screen of the window in both themes, at 1280 x 720 and at 3840 x 2160, through the
-// window without a display: FOLDER/<screen>-<theme>-<width>.png. What is shown is made by clicks.
+// window without a display: FOLDER/<screen>-<theme>-<width>.png, and the words on them:
+// FOLDER/labels.json. What is shown is made by clicks.
 //   window_screenshots PROGRAM FOLDER [SIZE]... [WORD]...
 //   SIZE  WIDTHxHEIGHT or WIDTHxHEIGHT@PERCENT of the text: 1024x700@150, instead of the usual two
 //   WORD  only the screens whose names contain a word
@@ -11,8 +12,11 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
+
+#include <nlohmann/json.hpp>
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
@@ -108,7 +112,12 @@ public:
         for (const Size& size : sizes_)
             for (const bool dark : {true, false}) take(screen, size, dark);
         show(kUsual, true);
+        note_labels(screen);
     }
+
+    /// Which words buttons and rows have on each screen at the usual size, as FOLDER/labels.json:
+    /// a check compares those of pictures in documents with the window's.
+    void write_labels() const { write_file(folder_ / "labels.json", labels_.dump(1) + "\n"); }
 
     /// Clicks an item that must be there.
     void click(const std::string& item) {
@@ -195,7 +204,15 @@ private:
         std::fflush(stdout);
     }
 
+    void note_labels(const std::string& screen) {
+        std::set<std::string> labels;
+        for (const auto& [name, item] : shell.app().ui().items())
+            if (!item.label.empty()) labels.insert(item.label);
+        labels_[screen] = labels;
+    }
+
     fs::path folder_;
+    nlohmann::json labels_ = nlohmann::json::object();
     std::vector<Size> sizes_;
     std::vector<std::string> words_;
 };
@@ -487,6 +504,7 @@ int run(const std::vector<std::string>& words) {
     places(photographer);
     review(photographer);
     history(photographer);
+    photographer.write_labels();
     return 0;
 }
 

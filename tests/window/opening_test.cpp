@@ -137,8 +137,15 @@ SCENARIO("A file that was opened before opens its project", "[window][opening]")
         }
     }
     WHEN("the file is opened while its project is open") {
+        const auto snapshot = document.snapshot();
+        document.keep_made_before();
         open_and_wait(document, file);
-        CHECK(document.project().filename() == "tube-2.vbench");
+        THEN("that project stays, and a new one is offered") {
+            CHECK(fs::equivalent(document.project(), first));
+            CHECK(document.snapshot()->history == snapshot->history);
+            CHECK_THAT(document.messages().back().text, Contains("is open already, as"));
+            CHECK(document.made_before());
+        }
     }
     WHEN("another file of this name is opened") {
         document.close();

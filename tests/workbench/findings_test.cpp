@@ -259,6 +259,23 @@ SCENARIO("What is more likely wrong than right is folded", "[workbench][findings
     CHECK(folded_words(17, false) == "17 below 50 %");
 }
 
+SCENARIO("The worst finding comes first, and what is unlikely last", "[workbench][findings]") {
+    const auto of = [](const char* kind, double certainty) {
+        Finding finding = bump_at({1, 2, 3}, 1.0);
+        finding.kind = kind;
+        finding.certainty = certainty;
+        return finding;
+    };
+    std::vector<Finding> findings = {of("bump", 0.98), of("contact", 0.6), of("contact", 0.9),
+                                     of("hole", 0.3),  of("dent", 0.4),    of("narrowing", 0.55)};
+    put_worst_first(findings);
+    std::vector<std::string> kinds;
+    for (const Finding& finding : findings) kinds.push_back(finding.kind);
+    CHECK(kinds ==
+          std::vector<std::string>{"contact", "contact", "narrowing", "bump", "dent", "hole"});
+    CHECK(findings[0].certainty == 0.9);
+}
+
 SCENARIO("The review's queue folds findings that are more likely wrong than right",
          "[workbench][findings]") {
     LogEntry last;

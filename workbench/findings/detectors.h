@@ -71,7 +71,8 @@ struct Detector {
     std::vector<Finding> (*find)(FindingSubject& subject, const Progress& progress);
 };
 
-/// All kinds of findings of this build, in the order in which they are looked for.
+/// All kinds of findings of this build, in the order in which they are looked for, and listed: what
+/// makes a model useless comes before what makes it less exact.
 [[nodiscard]] std::span<const Detector> detectors();
 
 /// The title of a kind; the kind itself if this build does not know it.

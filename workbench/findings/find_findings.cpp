@@ -42,6 +42,12 @@ bool is_explained(const Finding& finding, const std::vector<Finding>& earlier) {
     });
 }
 
+/// The row of a kind: the graver an error of the model it is, the earlier it comes.
+std::size_t row_of_kind(const std::string& kind) {
+    const std::span<const Detector> all = detectors();
+    return static_cast<std::size_t>(std::ranges::find(all, kind, &Detector::kind) - all.begin());
+}
+
 Json treatment_json(const Finding& finding) {
     const Remedy* treatment = finding.treatment();
     if (treatment == nullptr) return nullptr;
@@ -70,6 +76,13 @@ Json dismissal_json(const Dismissal& dismissal) {
 
 }  // namespace
 
+void put_worst_first(std::vector<Finding>& findings) {
+    std::ranges::stable_sort(findings, std::greater{}, &Finding::certainty);
+    const auto listed = static_cast<std::ptrdiff_t>(listed_count(findings));
+    std::ranges::stable_sort(findings.begin(), findings.begin() + listed, std::less{},
+                             [](const Finding& finding) { return row_of_kind(finding.kind); });
+}
+
 FindingSearch find_findings(const Scene& scene, const Progress& progress) {
     return find_findings(scene, {}, progress);
 }
@@ -92,7 +105,7 @@ FindingSearch find_findings(const Scene& scene, const std::vector<StatedEnd>& st
             search.findings.push_back(std::move(finding));
         }
     }
-    std::ranges::stable_sort(search.findings, std::greater{}, &Finding::certainty);
+    put_worst_first(search.findings);
     return search;
 }
 

@@ -13,9 +13,13 @@
 
 namespace vesselbench {
 
-/// All detectors on a scene's surface, the most certain findings first, of equals in the order of
-/// the registry. Nothing is changed. A kind that a damaged surface does not let be looked for is
-/// said to be not searched. \throw AlgorithmFailure if there is no surface; Cancelled
+/// Those that are listed come first: the worst first, as the registry has them, and of one kind the
+/// most certain. Then the others, the most certain first.
+void put_worst_first(std::vector<Finding>& findings);
+
+/// All detectors on a scene's surface, the worst first. Nothing is changed. A kind that a damaged
+/// surface does not let be looked for is said to be not searched. \throw AlgorithmFailure if there
+/// is no surface; Cancelled
 [[nodiscard]] FindingSearch find_findings(const Scene& scene, const Progress& progress = {});
 
 /// The same where edits have stated what the ends are: they and the findings state one figure.

@@ -36,7 +36,7 @@ struct Finding {
     [[nodiscard]] const Remedy* treatment() const;
 };
 
-/// How many findings are listed (kListed): the first ones. \param findings the most certain first
+/// How many findings are listed (kListed): the first ones. \param findings those before the others
 [[nodiscard]] std::size_t listed_count(std::span<const Finding> findings);
 
 /// What an id says.
@@ -65,7 +65,7 @@ struct NotSearched {
 };
 
 struct FindingSearch {
-    std::vector<Finding> findings;          ///< the most certain first
+    std::vector<Finding> findings;          ///< the worst first
     std::vector<NotSearched> not_searched;  ///< in the order of the registry
 };
 

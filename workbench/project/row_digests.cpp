@@ -24,7 +24,7 @@ constexpr std::array<BoundTable, 7> kTables = {{
     {"results", "id", "*", "1"},
     {"blobs", "id", "id, hash, content IS NULL", "1"},
     {"verdicts", "id", "*", "1"},
-    {"meta", "name", "*", "name <> 'chain head'"},
+    {"meta", "name", "*", "name NOT IN ('chain head', 'view')"},
 }};
 
 std::string digest_of_row(const Statement& row) {

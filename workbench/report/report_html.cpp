@@ -247,7 +247,7 @@ std::string certainty_text(const Json& finding) {
     return of.is_string() ? share + " that " + shown(of) : share;
 }
 
-/// What looks wrong on the model, the most certain first. \param listed those that are, or the
+/// What looks wrong on the model, the worst first. \param listed those that are, or the
 /// others
 Json findings(const Json& report, bool listed) {
     Json list = Json::array();

@@ -15,7 +15,7 @@ namespace vesselbench {
 [[nodiscard]] std::vector<Finding> open_findings(Session& session, const std::vector<LogEntry>& log,
                                                  const Progress& progress = {});
 
-/// Findings as items of the queue, of kind "finding", the most certain first: they come after all
+/// Findings as items of the queue, of kind "finding", in their order: they come after all
 /// reasons of edits, and stand at the last edit that has run, whose model they are of.
 /// \param log as above
 [[nodiscard]] std::vector<QueueItem> finding_items(const std::vector<Finding>& findings,

@@ -110,7 +110,8 @@ Json model_json(const SurfaceChange& change) {
     return rows;
 }
 
-Json figures_json(const ResultRecord& result) {
+/// \param wall how the wall alone moved, which the queue says as well; none: not known
+Json figures_json(const ResultRecord& result, const std::optional<WallChange>& wall) {
     Json rows = Json::array();
     const auto add = [&](const char* name, const std::string& value, const char* unit) {
         rows.push_back(figure_json(name, value, unit));
@@ -118,11 +119,15 @@ Json figures_json(const ResultRecord& result) {
     const SurfaceChange& change = result.change;
     if (change.volume_before) add("Volume before", formatted(*change.volume_before), "mm\u00B3");
     if (change.volume_after) add("Volume after", formatted(*change.volume_after), "mm\u00B3");
-    if (change.largest_deviation)
+    if (wall)
+        add("Largest deviation of the wall", formatted(wall->largest), "mm");
+    else if (change.largest_deviation)
         add("Largest deviation", formatted(*change.largest_deviation), "mm");
     if (change.mean_deviation) add("Mean deviation", formatted(*change.mean_deviation), "mm");
     if (change.triangles_after > 0) add("Triangles", std::to_string(change.triangles_after), "");
-    if (const std::string effect = effect_text(result); !effect.empty()) add("Effect", effect, "");
+    const Json report = reported(result);
+    if (const auto line = report.find("headline"); line != report.end() && line->is_string())
+        add("Result", line->get<std::string>(), "");
     return rows;
 }
 
@@ -175,16 +180,17 @@ Json edit_json(const LogEntry& entry, const ReviewedEdit* reviewed, const PageMo
                  {"arguments", given_json(operation, edit.given)},
                  {"before", nullptr},
                  {"after", nullptr}};
+    const auto model = models.edits.find(edit.edit.id);
+    const bool modelled = model != models.edits.end();
     if (entry.result) {
         json["decided"] = decided_json(operation, entry.result->resolved, edit.given);
-        json["figures"] = figures_json(*entry.result);
+        json["figures"] = figures_json(*entry.result, modelled ? model->second.wall : std::nullopt);
         json["warnings"] = warnings_json(*entry.result);
     } else if (!entry.reason.empty()) {
         json["warnings"] = {{{"text", readable_sentence(entry.reason)}}};
     }
     if (reviewed != nullptr) json["verdicts"] = verdicts_json(reviewed->verdicts);
-    if (const auto model = models.edits.find(edit.edit.id); model != models.edits.end())
-        add_model(model->second, json);
+    if (modelled) add_model(model->second, json);
     return json;
 }
 

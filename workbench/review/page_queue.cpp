@@ -120,17 +120,29 @@ void add_warnings(const LogEntry& entry, std::vector<QueueItem>& queue) {
     queue.push_back(std::move(item));
 }
 
+/// What was decided, as a reader would say it: those of one meaning are one thing.
+std::string decided_words(const Parameter& parameter) {
+    if (parameter.meaning == Meaning::Planes) return "openings";
+    if (parameter.meaning == Meaning::Roles) return "inlet";
+    return with_blanks(parameter.name);
+}
+
 void add_decisions(const LogEntry& entry, const Operation* operation,
                    std::vector<QueueItem>& queue) {
     if (operation == nullptr || !entry.result) return;
-    std::vector<std::string> names;
-    for (const Parameter& parameter : operation->parameters)
-        if (parameter.use == Use::Decision && entry.result->resolved.has(parameter.name) &&
-            !entry.edit.given.has(parameter.name))
-            names.push_back(readable(parameter.name));
-    if (names.empty()) return;
-    queue.push_back(item_of("decision", entry, kDecision, joined(names),
-                            "The program decided by itself: " + joined(names)));
+    std::vector<std::string> words;
+    for (const Parameter& parameter : operation->parameters) {
+        if (parameter.use != Use::Decision || !entry.result->resolved.has(parameter.name) ||
+            entry.edit.given.has(parameter.name))
+            continue;
+        const std::string decided = decided_words(parameter);
+        if (std::ranges::count(words, decided) == 0) words.push_back(decided);
+    }
+    if (words.empty()) return;
+    const std::string what = enumerated(words);
+    queue.push_back(item_of("decision", entry, kDecision,
+                            readable_sentence(what) + " chosen by the program",
+                            "The program chose " + what + " by itself"));
 }
 
 }  // namespace

@@ -77,7 +77,6 @@ struct App::Impl {
     void take_case();
     void unfold_form();
     [[nodiscard]] Layout layout() const;
-    [[nodiscard]] ScreenRect view_below_banners(PanelContext& context, const Layout& layout);
     void draw_case(PanelContext& context, const Layout& layout);
 
     Workplace place;
@@ -86,9 +85,8 @@ struct App::Impl {
     Viewport viewport;
     Thumbnails thumbnails;
     FileDialog files;
-    ScreenRect whole_view, view;  ///< of the last frame: with its banners, and without
-    int seen_opened = 0;          ///< Document::opened()
-    bool had_form = false;        ///< in the last frame
+    int seen_opened = 0;    ///< Document::opened()
+    bool had_form = false;  ///< in the last frame
     std::string device;
     double display_scale = 1.0;
     bool moved = true;           ///< the last update changed something
@@ -143,24 +141,15 @@ Layout App::Impl::layout() const {
     return layout_of(size.x, size.y, ui.em, sizes);
 }
 
-/// Below the banners. It stays where it is while something is dragged in it.
-ScreenRect App::Impl::view_below_banners(PanelContext& context, const Layout& layout) {
-    const ScreenRect below = draw_banner_strip(context, layout.view);
-    const bool same = std::exchange(whole_view, layout.view) == layout.view;
-    if (!same || !ImGui::IsAnyMouseDown()) view = below;
-    return view;
-}
-
 void App::Impl::draw_case(PanelContext& context, const Layout& layout) {
-    const ScreenRect below = view_below_banners(context, layout);
-    viewport.draw(context, below);
+    viewport.draw(context, layout.view);
     if (layout.rail.width > 0) draw_rail(context, layout.rail);
     if (layout.operation.width > 0) draw_operation_panel(context, layout.operation);
     if (layout.bottom.height > 0) draw_bottom_panel(context, layout.bottom);
     for (const Border& border : layout.borders) draw_border(context, border);
-    const float end = draw_banners(context, Viewport::model_part(context, below));
+    const float end = draw_banners(context, Viewport::model_part(context, layout.view));
     banners_moved = std::exchange(shown.banners_end, end) != end;  // what lies below them follows
-    draw_view_panel(context, below);
+    draw_view_panel(context, layout.view);
 }
 
 void App::draw() {
@@ -210,10 +199,8 @@ void App::recover(const std::string& error) {
 }
 
 bool App::may_close() {
-    Impl& app = *impl_;
-    if (!app.place.document.is_editing()) app.shown.closes = true;
-    if (!app.shown.closes) app.shown.leaving = Leaving::Window;
-    return app.shown.closes;
+    if (!impl_->shown.closes) leave(impl_->place, impl_->shown, Leaving::Window);
+    return impl_->shown.closes;
 }
 
 bool App::closes() const {

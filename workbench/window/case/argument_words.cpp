@@ -37,9 +37,11 @@ struct ValueWords {
 
     std::string operator()(std::int64_t value) const { return with_unit(std::to_string(value)); }
 
-    std::string operator()(double value) const { return with_unit(formatted(value)); }
+    std::string operator()(double value) const { return with_unit(readable_number(value)); }
 
-    std::string operator()(const std::string& value) const { return name + " " + value; }
+    std::string operator()(const std::string& value) const {
+        return name + " " + readable_variant(value);  // presets are called as what they are for
+    }
 
     std::string operator()(const Vec3& value) const { return name + " " + place_text(value); }
 
@@ -49,7 +51,7 @@ struct ValueWords {
             return name + ": " + counted(values.size() / 3, "place");
         if (values.size() > kMostListed) return counted_values(values.size(), name);
         std::vector<std::string> numbers;
-        for (const double value : values) numbers.push_back(formatted(value));
+        for (const double value : values) numbers.push_back(readable_number(value));
         return with_unit(joined(numbers));
     }
 

@@ -4,6 +4,8 @@
 #include <cctype>
 #include <chrono>
 #include <exception>
+#include <iterator>
+#include <utility>
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -214,6 +216,8 @@ void Document::close() {
     input_.reset();
     made_before_.reset();
     prepared_.clear();
+    making_.reset();
+    made_.reset();
     failure_.reset();
     project_.clear();
     shown_.clear();
@@ -226,11 +230,19 @@ void Document::take_opened() {
     if (!opened && opening_.problem().empty())
         return tell(make_message(MessageKind::Remark, "Cancelled"));
     if (!opened) return fail(opening_.problem());
+    if (opened->is_open) return show_again(*opened);
     try {
         show(std::move(*opened));
     } catch (const std::exception& error) {
         fail(diagnostics_of(error).front(), {});
     }
+}
+
+/// The project that is open: what was asked for is a file that it was made from.
+void Document::show_again(const Opened& opened) {
+    made_before_ = opened.made_before;
+    tell(make_message(MessageKind::Remark, made_before_->name() + " is open already, as " +
+                                               project_.filename().string()));
 }
 
 void Document::show(Opened opened) {
@@ -256,7 +268,9 @@ void Document::show(Opened opened) {
 void Document::take_snapshot() {
     const auto before = snapshot_;
     snapshot_ = runner_->snapshot();
-    if (!before || !same_edits(*before, *snapshot_)) ++snapshot_changes_;
+    const bool same = before && same_edits(*before, *snapshot_);
+    if (!same) ++snapshot_changes_;
+    if (!same) renew_messages();
     if (!before || before->history != snapshot_->history) shown_.follow(snapshot_, variant_);
 }
 
@@ -266,6 +280,7 @@ void Document::show_variant(const std::string& variant) {
     drop_preview();
     if (!runner_) return;
     ++snapshot_changes_;
+    renew_messages();
     shown_.follow(snapshot_, variant_);
 }
 
@@ -305,13 +320,17 @@ bool Document::begin_request(RequestKind kind) {
         return false;
     }
     failure_.reset();
+    runs_following_ = false;
     cancel_preview();
     shown_.pause();
     return true;
 }
 
 void Document::end(const RequestEnd& end) {
-    if (end.label.kind == RequestKind::Edit) preparation_.reset();
+    if (end.label.kind == RequestKind::Edit) {
+        preparation_.reset();
+        making_.reset();
+    }
     if (end.errors.empty())
         tell(make_message(MessageKind::Remark, "Cancelled"));
     else
@@ -322,19 +341,43 @@ void Document::enter(const LogEntry& entry) {
     ++entered_;
     drop_preview();
     tell_entered(entry);
+    const bool runs = std::exchange(runs_following_, false);
+    if (runs && pending_count(*snapshot_, variant_) > 0) return run_pending();
+    making_.reset();
+}
+
+void Document::begin_making() {
+    const Scene* before = newest() != nullptr ? newest() : current();
+    making_ = MadeModel{.variant = variant_,
+                        .from = snapshot_->history->current(),
+                        .before = before != nullptr ? std::optional(*before) : std::nullopt,
+                        .warnings_before = warning_count(*snapshot_, variant_)};
+}
+
+void Document::end_making(const std::string& what) {
+    made_ = std::exchange(making_, std::nullopt);
+    if (!made_) return;
+    if (made_->what.empty()) made_->what = what;
+    made_->state = snapshot_->history->current();
+    ++made_models_;
 }
 
 void Document::tell_entered(const LogEntry& entry) {
     if (!entry.result) return;
-    tell(make_message(MessageKind::Success, changed_text(entry.edit, *entry.result)));
+    Message message = make_message(MessageKind::Success, changed_text(entry.edit, *entry.result));
+    message.variant = entry.edit.place.variant;
+    tell(std::move(message));
     tell_warnings(entry.edit, *entry.result);
 }
 
-void Document::tell_warnings(const EditRecord& edit, const ResultRecord& result) {
+void Document::tell_warnings(const EditRecord& edit, const ResultRecord& result, bool of_preview) {
     for (Diagnostic warning : result.warnings) {
         warning.operation = edit.operation;
         if (edit.edit.id != 0) warning.edit = edit.edit.id;
-        tell(make_message(warning));
+        Message message = make_message(warning);
+        message.of_preview = of_preview;
+        if (!of_preview) message.result = result.id;
+        tell(std::move(message));
     }
 }
 
@@ -351,7 +394,9 @@ void Document::tell_run(const Snapshot& before) {
             tell(stale_message(entry));
         else
             tell_entered(entry);
-    tell(make_message(MessageKind::Success, "Ran " + counted(run.size(), "pending edit")));
+    const std::string what = "Ran " + counted(run.size(), "pending edit");
+    tell(make_message(MessageKind::Success, what));
+    end_making(what);
 }
 
 void Document::apply(const std::string& operation, Arguments given, Step step, std::string note) {
@@ -402,8 +447,15 @@ void Document::tell_move(const std::string& verb, const std::string& edits) {
     tell(make_message(MessageKind::Remark, verb + edits));
 }
 
+void Document::run_following() {
+    if (requests_.empty()) return;
+    begin_making();
+    runs_following_ = true;
+}
+
 void Document::run_pending() {
     if (!begin_request(RequestKind::Edit)) return;
+    if (!making_) begin_making();
     watch(runner_->scene(variant_), {.what = "Running pending edits"},
           [this, before = snapshot_](const Scene& scene) {
               if (pending_count(*snapshot_, variant_) == 0) shown_.offer_newest(scene);
@@ -515,7 +567,7 @@ void Document::show(const Preview& preview) {
     shown_.show_preview(preview);
     tell(make_message(MessageKind::Remark,
                       "Preview of " + changed_text(preview.edit(), preview.result())));
-    tell_warnings(preview.edit(), preview.result());
+    tell_warnings(preview.edit(), preview.result(), true);
 }
 
 void Document::commit_preview() {
@@ -526,7 +578,9 @@ void Document::commit_preview() {
 
 void Document::drop_preview() {
     cancel_preview();
+    const bool shown = previewed().has_value();
     shown_.drop_preview();
+    if (shown) renew_messages();
 }
 
 /// That is being made.
@@ -556,6 +610,7 @@ void Document::prepare(const std::string& purpose, std::optional<Step> again_fro
     if (!resumed.refusal.empty()) return fail(resumed.refusal);
     show_variant(purpose);
     drop_preview();
+    begin_making();
     for (const std::string& remark : resumed.remarks) tell(make_message(plain_text(remark)));
     if (resumed.rest.empty()) return end_at_once(purpose, all_made_text(resumed));
     preparation_ = Preparation{.recipe = changed.value_or(resumed.rest),
@@ -577,7 +632,8 @@ void Document::end_at_once(const std::string& purpose, const std::string& text) 
           [this, purpose, text](const Nothing&) {
               if (std::ranges::count(prepared_, purpose) == 0) prepared_.push_back(purpose);
               tell(make_message(MessageKind::Success, readable_sentence(text)));
-              if (pending_count(*snapshot_, variant_) > 0) run_pending();
+              if (pending_count(*snapshot_, variant_) > 0) return run_pending();
+              making_.reset();
           });
 }
 
@@ -594,6 +650,7 @@ void Document::leave_out(const std::vector<EditId>& edits) {
 void Document::prepare_next() {
     if (preparation_->cancelled) {
         preparation_.reset();
+        making_.reset();
         return tell(make_message(MessageKind::Remark, "Cancelled"));
     }
     if (preparation_->done()) return end_preparation();
@@ -609,6 +666,7 @@ void Document::end_entry(RecipeMessages& messages) {
         const bool warns = message.kind == MessageKind::Warning;
         if (warns) ++preparation_->warnings;
         if (warns && made != nullptr) message.edit = made->edit.edit.id;
+        if (warns && made != nullptr && made->result) message.result = made->result->id;
         tell(std::move(message));
     }
     ++preparation_->next;
@@ -627,7 +685,9 @@ void Document::end_preparation() {
     else
         tell(make_message(MessageKind::Warning,
                           text + " with " + counted(done.warnings, "warning")));
-    if (pending_count(*snapshot_, variant_) > 0) run_pending();
+    if (making_) making_->what = text;
+    if (pending_count(*snapshot_, variant_) > 0) return run_pending();
+    end_making(text);
 }
 
 // --- strokes of a brush
@@ -701,10 +761,24 @@ void Document::cancel() {
 
 void Document::tell(Message message) {
     ++message_changes_;
+    if (holds(message)) shown_messages_.push_back(message);
     messages_.push_back(std::move(message));
     if (messages_.size() <= kMostMessages) return;
     messages_.pop_front();
     if (other_messages_ > 0) --other_messages_;
+    renew_messages();
+}
+
+bool Document::holds(const Message& message) const {
+    return !snapshot_ || holds_now(message, *snapshot_, variant_, previewed().has_value());
+}
+
+void Document::renew_messages() {
+    std::deque<Message> now;
+    std::ranges::copy_if(messages_, std::back_inserter(now),
+                         [this](const Message& message) { return holds(message); });
+    if (now.size() != shown_messages_.size()) ++message_changes_;
+    shown_messages_ = std::move(now);
 }
 
 /// Those about the case before.
@@ -712,6 +786,7 @@ void Document::forget_messages() {
     messages_.erase(messages_.begin(),
                     messages_.begin() + static_cast<std::ptrdiff_t>(other_messages_));
     other_messages_ = 0;
+    renew_messages();
 }
 
 void Document::fail(const std::string& text) {

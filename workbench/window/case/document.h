@@ -11,6 +11,7 @@
 #include "geometry/kernel/deviation_map.h"
 #include "workbench/export/products.h"
 #include "workbench/session/session_runner.h"
+#include "workbench/window/case/made_model.h"
 #include "workbench/window/case/message.h"
 #include "workbench/window/case/opening.h"
 #include "workbench/window/case/preparation.h"
@@ -154,6 +155,20 @@ public:
     void jump(StateId state);
     void run_pending();
 
+    /// Also runs what the edit that was just asked for makes pending, as soon as it is entered.
+    void run_following();
+
+    /// What the last recipe, or the last run of pending edits, has made; none in this case yet.
+    [[nodiscard]] const std::optional<MadeModel>& made() const { return made_; }
+
+    /// Lets go of the model before it, which nothing else may hold.
+    void forget_made_before() {
+        if (made_) made_->before.reset();
+    }
+
+    /// Counts changes of made().
+    [[nodiscard]] int made_models() const { return made_models_; }
+
     /// Makes what is missing of a purpose's recipe: the case's own, else the default one. Where
     /// nothing is, pending edits run.
     /// \param again_from the purpose's own edits from this step on are left out, and made again:
@@ -228,7 +243,9 @@ public:
 
     void cancel();
 
-    [[nodiscard]] const std::deque<Message>& messages() const { return messages_; }
+    /// Those that hold now: what warns of an edit goes with that edit's result, with the variant
+    /// and with the preview that it is about, and comes back with them.
+    [[nodiscard]] const std::deque<Message>& messages() const { return shown_messages_; }
 
     /// Counts changes of messages().
     [[nodiscard]] int message_changes() const { return message_changes_; }
@@ -252,8 +269,12 @@ private:
     void end(const RequestEnd& end);
     void end(const EndedStroke& stroke);
     void enter(const LogEntry& entry);
+    void begin_making();
+    void end_making(const std::string& what);
     void tell_entered(const LogEntry& entry);
-    void tell_warnings(const EditRecord& edit, const ResultRecord& result);
+    void tell_warnings(const EditRecord& edit, const ResultRecord& result, bool of_preview = false);
+    [[nodiscard]] bool holds(const Message& message) const;
+    void renew_messages();
     void tell_once(Message message);
     void tell_run(const Snapshot& before);
     void tell_move(const std::string& verb, const std::string& edits);
@@ -261,6 +282,7 @@ private:
     void cancel_preview();
     void take_opened();
     void show(Opened opened);
+    void show_again(const Opened& opened);
     void take_snapshot();
     void leave_out(const std::vector<EditId>& edits);
     void prepare_next();
@@ -287,11 +309,14 @@ private:
     std::string variant_ = kDefaultVariant;
     std::shared_ptr<const Snapshot> snapshot_;
     std::optional<Preparation> preparation_;
-    std::deque<Message> messages_;
+    bool runs_following_ = false;      ///< what the edit that runs makes pending
+    std::optional<MadeModel> making_;  ///< while it runs
+    std::optional<MadeModel> made_;
+    std::deque<Message> messages_, shown_messages_;
     std::size_t other_messages_ = 0;  ///< those before a case was asked for
     std::optional<Message> failure_;
     int snapshot_changes_ = 0, dropped_strokes_ = 0, entered_ = 0, opened_ = 0,
-        message_changes_ = 0;
+        message_changes_ = 0, made_models_ = 0;
 };
 
 }  // namespace vesselbench

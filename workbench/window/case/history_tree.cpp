@@ -2,11 +2,12 @@
 
 #include <map>
 #include <set>
+#include <utility>
 
-#include "workbench/case/argument_texts.h"
 #include "workbench/report/log_json.h"
 #include "workbench/window/case/local_time.h"
 #include "workbench/window/case/rail.h"
+#include "workbench/window/case/readable.h"
 
 namespace vesselbench {
 
@@ -59,6 +60,9 @@ HistoryRow row_of(const Snapshot& snapshot, const HistoryState& state) {
     row.arguments = arguments_text(edit);
     row.note = edit.note;
     row.edit = state.edit;
+    row.variant = readable_variant(edit.place.variant);
+    if (state.change == StateChange::Apply && makes_strokes(edit.operation))
+        row.brush = edit.operation;
     // A removal runs nothing: author, time and figures are those of the edit that it leaves out.
     if (state.change == StateChange::Remove) return row;
     row.author = edit.author;
@@ -98,7 +102,51 @@ std::vector<HistoryRow> rows_of(const Snapshot& snapshot, int& columns) {
     return rows;
 }
 
+/// By row: the number of states that come from it.
+std::vector<int> children_of(const HistoryTree& tree) {
+    std::vector<int> children(tree.rows.size(), 0);
+    for (const HistoryRow& row : tree.rows)
+        if (row.parent_row >= 0) ++children[static_cast<std::size_t>(row.parent_row)];
+    return children;
+}
+
+/// True if a row is one more stroke of the row before it.
+bool continues(const HistoryTree& tree, std::size_t row, const std::vector<int>& children) {
+    if (row == 0) return false;
+    const HistoryRow &here = tree.rows[row], &before = tree.rows[row - 1];
+    return !here.brush.empty() && here.brush == before.brush && here.variant == before.variant &&
+           here.parent_row == static_cast<int>(row) - 1 && children[row - 1] == 1 &&
+           here.note.empty() && before.note.empty() && !before.current;
+}
+
 }  // namespace
+
+HistoryTree folded(const HistoryTree& tree, const std::set<StateId>& unfolded) {
+    const std::vector<int> children = children_of(tree);
+    HistoryTree shown = tree;
+    shown.rows.clear();
+    std::vector<int> places;  // of the tree's rows among the shown ones
+    StateId first = 0;        // of the strokes at hand
+    for (std::size_t i = 0; i < tree.rows.size(); ++i) {
+        HistoryRow row = tree.rows[i];
+        const bool same = continues(tree, i, children);
+        if (!same) first = row.state;
+        const bool one_by_one = unfolded.contains(first);
+        const bool more = i + 1 < tree.rows.size() && continues(tree, i + 1, children);
+        row.fold = same || more ? first : 0;
+        if (same && !one_by_one) {
+            row.strokes = shown.rows.back().strokes + 1;
+            row.parent_row = shown.rows.back().parent_row;
+            shown.rows.back() = std::move(row);
+        } else {
+            if (row.parent_row >= 0)
+                row.parent_row = places[static_cast<std::size_t>(row.parent_row)];
+            shown.rows.push_back(std::move(row));
+        }
+        places.push_back(static_cast<int>(shown.rows.size()) - 1);
+    }
+    return shown;
+}
 
 HistoryTree history_tree(const Snapshot& snapshot) {
     const History& history = *snapshot.history;

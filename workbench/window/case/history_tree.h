@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -17,10 +19,14 @@ struct HistoryRow {
     std::string title;     ///< "smooth", "changed smooth", "removed smooth", "empty case"
     std::string arguments;
     std::string note;
-    EditRef edit;        ///< the revision that was applied or changed; id 0: none
-    std::string change;  ///< of its run in this state: "volume -2.1 %, moved up to 0.31 mm"
-    std::string author;  ///< empty for a removal, as its change and time
-    std::string time;    ///< local, "2024-05-17 09:30"
+    EditRef edit;         ///< the revision that was applied or changed; id 0: none
+    std::string change;   ///< of its run in this state: "volume -2.1 %, moved up to 0.31 mm"
+    std::string author;   ///< empty for a removal, as its change and time
+    std::string time;     ///< local, "2024-05-17 09:30"
+    std::string variant;  ///< "printing": whose model it changes; empty: of all
+    std::string brush;    ///< the operation, if it is a stroke of a brush; else empty
+    StateId fold = 0;     ///< first state of the strokes that it belongs to; 0: they are not folded
+    std::size_t strokes = 1;  ///< that the row stands for
 };
 
 struct HistoryTree {
@@ -33,5 +39,11 @@ struct HistoryTree {
 };
 
 [[nodiscard]] HistoryTree history_tree(const Snapshot& snapshot);
+
+/// The same with strokes of one brush that follow one another in one row, the last one's. Strokes
+/// with a note, those at which the history branches and what follows the current one stay rows of
+/// their own.
+/// \param unfolded first states of strokes that are listed one by one
+[[nodiscard]] HistoryTree folded(const HistoryTree& tree, const std::set<StateId>& unfolded);
 
 }  // namespace vesselbench

@@ -5,6 +5,7 @@
 
 #include "workbench/case/diagnostic_words.h"
 #include "workbench/window/case/local_time.h"
+#include "workbench/window/case/rail.h"
 #include "workbench/window/case/readable.h"
 
 namespace vesselbench {
@@ -40,6 +41,17 @@ Message make_message(const Diagnostic& diagnostic) {
             .place = diagnostic.place,
             .operation = diagnostic.operation,
             .remedies = std::move(remedies)};
+}
+
+bool holds_now(const Message& message, const Snapshot& snapshot, const std::string& variant,
+               bool previewed) {
+    if (message.of_preview) return previewed;
+    if (!message.variant.empty() && message.variant != variant) return false;
+    if (message.kind != MessageKind::Warning || !message.edit) return true;
+    const LogEntry* entry = find_entry(snapshot, *message.edit);
+    if (entry == nullptr || !is_part_of(entry->edit.place, variant)) return false;
+    if (!message.result) return entry->status == EditStatus::Stale;
+    return entry->result && entry->result->id == *message.result;
 }
 
 Diagnostic refusal_of(const LogEntry& stale) {

@@ -1,5 +1,7 @@
 #include "workbench/window/case/opening.h"
 
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 #include <stdlib.h>
 
@@ -93,25 +95,36 @@ Opened open_project(const fs::path& project, const SessionOptions& options) {
     return opened;
 }
 
-/// The project that was made from a file before, where the window puts projects; none if it has
-/// not read just this content, cannot be opened or written, or is open already.
+/// A project that was made from a file before; none if it has not read just this content, cannot be
+/// opened, or, unless it is the open one, cannot be written.
+std::optional<Opened> earlier_project(const fs::path& file, const OpenRequest& request,
+                                      const SessionOptions& options) {
+    std::error_code ignored;
+    try {
+        Opened opened = open_project(file, options);
+        opened.is_open = fs::equivalent(file, request.open_project, ignored);
+        if (!opened.is_open && !opened.session.read_only_reason().empty()) return std::nullopt;
+        if (!opened.session.is_source(request.path)) return std::nullopt;
+        opened.made_before = request;
+        return opened;
+    } catch (const Cancelled&) {
+        throw;
+    } catch (const std::exception&) {  // a damaged one is not the answer
+        return std::nullopt;
+    }
+}
+
+/// The project that was made from a file before, where the window puts projects: the open one, else
+/// the newest.
 std::optional<Opened> open_earlier(const OpenRequest& request, const SessionOptions& options) {
     std::error_code ignored;
     if (request.anew || !fs::is_regular_file(request.path, ignored)) return std::nullopt;
-    for (const fs::path& file :
-         earlier_project_files(request.path, request.beside_input, request.documents)) {
-        if (fs::equivalent(file, request.open_project, ignored)) continue;
-        try {
-            Opened opened = open_project(file, options);
-            if (!opened.session.read_only_reason().empty()) continue;
-            if (!opened.session.is_source(request.path)) continue;
-            opened.made_before = request;
-            return opened;
-        } catch (const Cancelled&) {
-            throw;
-        } catch (const std::exception&) {  // a damaged one is not the answer
-        }
-    }
+    auto files = earlier_project_files(request.path, request.beside_input, request.documents);
+    std::ranges::stable_partition(files, [&](const fs::path& file) {
+        return fs::equivalent(file, request.open_project, ignored);
+    });
+    for (const fs::path& file : files)
+        if (auto opened = earlier_project(file, request, options)) return opened;
     return std::nullopt;
 }
 

@@ -19,7 +19,7 @@ struct OpenRequest {
     std::string phantom;       ///< not empty: this phantom instead of the path
     bool beside_input = true;  ///< where a new project may go; else only the documents folder
     std::filesystem::path documents;     ///< the documents folder
-    std::filesystem::path open_project;  ///< that is open now; it does not answer the request
+    std::filesystem::path open_project;  ///< that is open now
     bool anew = false;  ///< a new project, even if one was made from this file before
 
     [[nodiscard]] std::string name() const;  ///< without folders
@@ -35,6 +35,7 @@ struct Opened {
     std::optional<Input> input;  ///< of a new project, with the case's own recipes
     std::vector<Message> remarks;
     PreparedPurposes prepared;
+    bool is_open = false;  ///< this project is OpenRequest::open_project: it is to be shown
 };
 
 /// Opens a project, or that which was made from this file before, or makes one whose first edit

@@ -47,12 +47,12 @@ RailEdit rail_edit(const LogEntry& entry) {
     return row;
 }
 
-bool is_stroke(const RailEdit& edit) {
-    const Operation* operation = known_operation(edit.operation);
+}  // namespace
+
+bool makes_strokes(const std::string& name) {
+    const Operation* operation = known_operation(name);
     return operation != nullptr && is_brush(*operation);
 }
-
-}  // namespace
 
 std::string arguments_text(const EditRecord& edit) {
     const Operation* operation = known_operation(edit.operation);
@@ -89,7 +89,7 @@ std::vector<RailRow> rail_rows(const RailStep& step) {
     for (std::size_t i = 0; i < step.edits.size(); ++i) {
         const RailEdit& edit = step.edits[i];
         const bool continues =
-            i > 0 && is_stroke(edit) && step.edits[i - 1].operation == edit.operation;
+            i > 0 && makes_strokes(edit.operation) && step.edits[i - 1].operation == edit.operation;
         if (continues)
             ++rows.back().count;
         else
@@ -128,6 +128,14 @@ int pending_count(const Snapshot& snapshot, const std::string& variant) {
     return static_cast<int>(std::ranges::count_if(snapshot.log, [&](const LogEntry& entry) {
         return entry.status == EditStatus::Pending && is_part_of(entry.edit.place, variant);
     }));
+}
+
+std::size_t warning_count(const Snapshot& snapshot, const std::string& variant) {
+    std::size_t count = 0;
+    for (const LogEntry& entry : snapshot.log)
+        if (entry.result && is_part_of(entry.edit.place, variant))
+            count += entry.result->warnings.size();
+    return count;
 }
 
 }  // namespace vesselbench

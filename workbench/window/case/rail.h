@@ -54,6 +54,9 @@ struct RailRow {
 /// An edit's arguments as lists show them.
 [[nodiscard]] std::string arguments_text(const EditRecord& edit);
 
+/// True for the name of a brush: its edits are strokes.
+[[nodiscard]] bool makes_strokes(const std::string& operation);
+
 /// How an edit is marked; never empty.
 [[nodiscard]] StepState state_of(const RailEdit& edit);
 
@@ -65,5 +68,8 @@ struct RailRow {
 
 /// Number of pending edits that the variant's model consists of.
 [[nodiscard]] int pending_count(const Snapshot& snapshot, const std::string& variant);
+
+/// Number of warnings of the edits that the variant's model consists of.
+[[nodiscard]] std::size_t warning_count(const Snapshot& snapshot, const std::string& variant);
 
 }  // namespace vesselbench

@@ -4,7 +4,17 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/kernel/wording.h"
+#include "workbench/case/purposes.h"
+
 namespace vesselbench {
+
+namespace {
+
+constexpr double kFirstGrouped = 1e3;  ///< "%.3g" would write it with an exponent
+constexpr double kLastGrouped = 1e12;  ///< from here on, digits are harder to read than those
+
+}  // namespace
 
 std::string readable_unit(const std::string& unit) {
     if (unit == "-") return "";
@@ -26,6 +36,24 @@ std::optional<double> typed_number(const std::string& text) {
     const auto [stop, error] = std::from_chars(begin, end, number);
     if (error != std::errc() || stop != end || !std::isfinite(number)) return std::nullopt;
     return number;
+}
+
+std::string readable_variant(const std::string& variant) {
+    std::string title = model_title(variant);
+    const std::string model = "Model for ";
+    return title.starts_with(model) ? title.substr(model.size()) : title;
+}
+
+std::string grouped(std::size_t number) {
+    std::string digits = std::to_string(number);
+    for (int at = static_cast<int>(digits.size()) - 3; at > 0; at -= 3) digits.insert(at, ",");
+    return digits;
+}
+
+std::string readable_number(double number) {
+    const double rounded = three_digits(number), size = std::abs(rounded);
+    if (size < kFirstGrouped || size >= kLastGrouped) return formatted(rounded);
+    return (rounded < 0.0 ? "-" : "") + grouped(static_cast<std::size_t>(std::llround(size)));
 }
 
 }  // namespace vesselbench

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -12,5 +13,14 @@ namespace vesselbench {
 
 /// A number that was typed, with blanks around it or without; none: it is not one.
 [[nodiscard]] std::optional<double> typed_number(const std::string& text);
+
+/// What a variant's model is for: "printing"; one of the user's is called by its name.
+[[nodiscard]] std::string readable_variant(const std::string& variant);
+
+/// A count: "12,400".
+[[nodiscard]] std::string grouped(std::size_t number);
+
+/// A measured number as people read it, to three significant digits: "0.0123", "12.3", "12,400".
+[[nodiscard]] std::string readable_number(double number);
 
 }  // namespace vesselbench

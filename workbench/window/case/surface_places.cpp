@@ -3,11 +3,11 @@
 #include <algorithm>
 
 #include "geometry/kernel/errors.h"
-#include "geometry/kernel/wording.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
 #include "geometry/vessel/centerlines/centerlines.h"
 #include "geometry/vessel/centerlines/tip_name.h"
 #include "workbench/case/measure_json.h"
+#include "workbench/window/case/readable.h"
 
 namespace vesselbench {
 
@@ -49,8 +49,8 @@ SurfacePlaces places_of(const Surface& surface, bool tips, const Progress& progr
 }
 
 std::string opening_text(const PatchMeasures& opening) {
-    return opening.name + ": diameter " + formatted(diameter_of_area(opening.area)) + " mm, area " +
-           formatted(opening.area) + " mm\u00B2";
+    return opening.name + ": diameter " + readable_number(diameter_of_area(opening.area)) +
+           " mm, area " + readable_number(opening.area) + " mm\u00B2";
 }
 
 std::vector<NamedPlace> openings_and_tips(const SurfacePlaces& places) {

@@ -191,8 +191,6 @@ void Core::answer(FileQuestion question, const std::filesystem::path& file) {
             return open(file);
         case FileQuestion::SaveCopy:
             return document.save_copy(file);
-        case FileQuestion::Export:
-            return document.export_to(file);
         case FileQuestion::Parameter:
             return form() ? set_field(asked_parameter_, file.string()) : void();
         case FileQuestion::Picture:
@@ -206,6 +204,7 @@ void Core::answer(FileQuestion question, const std::filesystem::path& file) {
         case FileQuestion::SaveEdits:
             return save_recipe(file,
                                recipe_of_edits(*document.snapshot(), document.variant(), false));
+        case FileQuestion::Export:  // the dialog exports: it knows the flow
         case FileQuestion::None:
             return;
     }

@@ -96,6 +96,12 @@ public:
     /// Counts calls of look_at().
     [[nodiscard]] int looks() const { return looks_; }
 
+    /// Brings all of the model into view.
+    void frame_model() { ++frames_; }
+
+    /// Counts calls of frame_model().
+    [[nodiscard]] int frames() const { return frames_; }
+
     /// The places of the shown surface; vessel ends only if the form wants them.
     [[nodiscard]] const SurfacePlaces& surface_places() const { return places_; }
 
@@ -148,7 +154,7 @@ private:
     std::optional<EditId> pointed_, next_pointed_;
     std::optional<Vec3> looked_at_;
     Vec3 looked_from_ = Vec3::Zero();
-    int looks_ = 0;
+    int looks_ = 0, frames_ = 0;
 };
 
 }  // namespace vesselbench

@@ -44,6 +44,7 @@ struct Shown {
     Leaving leaving = Leaving::Nothing;     ///< asked, and not answered
     bool closes = false;                    ///< the window may be closed, whatever runs
     std::set<EditId> unfolded;              ///< first edits of strokes that the rail lists singly
+    std::set<StateId> unfolded_states;      ///< the same of the history
     bool view = false;                      ///< the view's options
     PictureLook picture;                    ///< of those that are saved
     float banners_end = 0;                  ///< lower end of those in the view [pixels]; 0: none

@@ -7,8 +7,8 @@
 
 #include <imgui.h>
 
-#include "geometry/kernel/wording.h"
 #include "gpu/colours.h"
+#include "workbench/window/case/readable.h"
 #include "workbench/window/core/core.h"
 #include "workbench/window/widgets/controls.h"
 #include "workbench/window/widgets/ui.h"
@@ -31,7 +31,7 @@ Paint colour_of(const LabelRow& row) {
 }
 
 void draw_volume(const PanelContext& c, const LabelRow& row) {
-    const std::string volume = formatted(row.volume / 1000.0, "%.3g ml");
+    const std::string volume = readable_number(row.volume / 1000.0) + " ml";
     const float wide = ImGui::CalcTextSize(volume.c_str()).x;
     ImGui::SameLine(ImGui::GetContentRegionMax().x - wide - c.ui.grid(1));
     text(c.ui, volume, c.ui.theme.muted);

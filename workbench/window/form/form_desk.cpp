@@ -158,6 +158,18 @@ void FormDesk::apply() {
         document.apply(form_->operation().name, form_->arguments(), step_);
 }
 
+void FormDesk::apply_and_run() {
+    if (!can_apply()) return;
+    apply();
+    document.run_following();
+}
+
+Rerun FormDesk::following() const {
+    if (!form_ || !document.is_open()) return {};
+    return rerun_after({.edit = form_->edit(), .step = step_}, *document.snapshot(),
+                       document.variant());
+}
+
 // --- clicks
 
 void FormDesk::arm(const std::string& parameter) {

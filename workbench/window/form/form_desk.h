@@ -7,6 +7,7 @@
 
 #include "workbench/window/case/document.h"
 #include "workbench/window/case/pick_target.h"
+#include "workbench/window/case/rerun.h"
 #include "workbench/window/form/automatic_values.h"
 #include "workbench/window/form/field_text.h"
 #include "workbench/window/form/form_listener.h"
@@ -85,6 +86,12 @@ public:
 
     /// Enters the preview if it is of what the form says, else runs the form.
     void apply();
+
+    /// The same, and then the edits that it makes pending.
+    void apply_and_run();
+
+    /// What apply_and_run() runs after the form's edit.
+    [[nodiscard]] Rerun following() const;
 
     // --- clicks
 

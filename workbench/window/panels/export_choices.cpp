@@ -80,9 +80,9 @@ std::string ExportChoices::meaning(const Surface& surface) const {
         if (!parameters.split) parameters.split = state_->split;
         std::string text;
         for (const InletFlow& inlet : flow_summary(surface, parameters).inlets)
-            text += (text.empty() ? "" : "\n") + inlet.name + ": " + formatted(inlet.flow) +
-                    " cm³/s, mean velocity " + formatted(inlet.mean_velocity) +
-                    " m/s, Reynolds number " + formatted(inlet.reynolds, "%.0f");
+            text += (text.empty() ? "" : "\n") + inlet.name + ": " + readable_number(inlet.flow) +
+                    " cm³/s, mean velocity " + readable_number(inlet.mean_velocity) +
+                    " m/s, Reynolds number " + readable_number(inlet.reynolds);
         return text;
     } catch (const std::exception& error) {
         return readable_sentence(error.what());

@@ -12,10 +12,10 @@ namespace vesselbench {
 
 namespace {
 
-void leave_now(PanelContext& c) {
-    const Leaving what = std::exchange(c.shown.leaving, Leaving::Nothing);
-    if (what == Leaving::Window) c.shown.closes = true;
-    if (what == Leaving::Case) c.place.close();
+void leave_now(Core& core, Shown& shown) {
+    const Leaving what = std::exchange(shown.leaving, Leaving::Nothing);
+    if (what == Leaving::Window) shown.closes = true;
+    if (what == Leaving::Case) core.close();
 }
 
 void draw_buttons(PanelContext& c) {
@@ -26,15 +26,16 @@ void draw_buttons(PanelContext& c) {
     const bool stays =
         button(c.ui, "leaving.stay", "Let it run", {.primary = true, .width = width});
     ImGui::SameLine(0, c.ui.grid(1));
-    if (button(c.ui, "leaving.leave", "Cancel it and close", {.width = width})) return leave_now(c);
+    if (button(c.ui, "leaving.leave", "Cancel it and close", {.width = width}))
+        return leave_now(c.core, c.shown);
     if (stays) c.shown.leaving = Leaving::Nothing;
 }
 
 }  // namespace
 
-void leave(PanelContext& c, Leaving what) {
-    c.shown.leaving = what;
-    if (!c.place.document.is_editing()) leave_now(c);
+void leave(Core& core, Shown& shown, Leaving what) {
+    shown.leaving = what;
+    if (!core.document.is_editing()) leave_now(core, shown);
 }
 
 void draw_leaving_dialog(PanelContext& c, const ScreenRect& window) {

@@ -15,6 +15,8 @@
 #include "workbench/window/features/extraction/extraction_panel.h"
 #include "workbench/window/features/handles/handles_feature.h"
 #include "workbench/window/features/openings/openings_panel.h"
+#include "workbench/window/features/result/result_feature.h"
+#include "workbench/window/features/result/result_panel.h"
 #include "workbench/window/features/review/review_panel.h"
 #include "workbench/window/fields/form_fields.h"
 #include "workbench/window/form/field_text.h"
@@ -93,6 +95,12 @@ bool shows_live(const PanelContext& c) {
     return c.place.has_live_form() && c.shown.form == FormTab::Live;
 }
 
+/// What a brush paints is known once it has painted: its strokes are edits of their own.
+bool paints(const OperationForm& form) {
+    return is_brush(form.operation()) && !form.edit() && text_of(form, "dabs").empty() &&
+           text_of(form, "at").empty();
+}
+
 void draw_title(PanelContext& c, const OperationForm& form) {
     if (icon_button(c.ui, "operation.back", icons::kLeft, "Back to the operations"))
         return c.place.leave_form();
@@ -105,11 +113,8 @@ void draw_title(PanelContext& c, const OperationForm& form) {
                     form.edit() ? "Restore the edit's fields" : "Clear all fields"))
         c.place.reset_form();
     ImGui::SameLine(0, 0);
-    // What a brush paints is known once it has painted: its edit has a command.
-    const bool paints =
-        is_brush(form.operation()) && text_of(form, "dabs").empty() && text_of(form, "at").empty();
     if (icon_button(c.ui, "operation.copy", icons::kCopy, "Copy as command\n" + c.place.command(),
-                    form.valid() && !paints))
+                    form.valid() && !paints(form)))
         c.to_clipboard(c.place.command());
 }
 
@@ -203,9 +208,52 @@ void draw_remedies(PanelContext& c) {
     }
 }
 
+/// What runs behind the form's edit, or behind the strokes that were painted.
+Rerun rerun_behind(const PanelContext& c, const OperationForm& form) {
+    const Document& document = c.place.document;
+    return paints(form) ? pending_rerun(*document.snapshot(), document.variant())
+                        : c.place.following();
+}
+
+/// Strokes are edits already: they collect until what follows them is run.
+void draw_run(PanelContext& c, bool any, float width) {
+    if (!button(c.ui, "operation.run", "Run",
+                {.primary = true,
+                 .enabled = any && c.place.can_change(),
+                 .width = width,
+                 .help = "Make the edits again that follow the strokes"}))
+        return;
+    c.place.leave_form();
+    c.place.document.run_pending();
+}
+
+void draw_apply(PanelContext& c, const OperationForm& form, bool runs, float width) {
+    const bool change = form.edit().has_value();
+    const char* verb = change ? "Change" : "Apply";
+    const char* both = change ? "Change and run" : "Apply and run";
+    const std::string help =
+        change ? "Run the edit with these values" : "Run and add it as an edit; can be undone";
+    if (button(c.ui, "operation.apply", runs ? both : verb,
+               {.primary = true,
+                .enabled = c.place.can_apply(),
+                .width = width,
+                .help = help + (runs ? ". The edits that follow it are made again" : "")}))
+        c.place.apply_and_run();
+}
+
+void draw_cost(PanelContext& c, const Rerun& rerun) {
+    if (rerun.edits == 0) return;
+    text(c.ui, "Then runs " + rerun_text(rerun), c.ui.theme.muted);
+    c.ui.item("operation.cost");
+}
+
 void draw_actions(PanelContext& c, const OperationForm& form) {
     Workplace& place = c.place;
-    const float width = (ImGui::GetContentRegionAvail().x - 2 * c.ui.grid(1)) / 3;
+    const Rerun rerun = rerun_behind(c, form);
+    draw_cost(c, rerun);
+    // "Change and run" needs more room than the others.
+    const float room = ImGui::GetContentRegionAvail().x - 2 * c.ui.grid(1);
+    const float width = room * 0.29F;
     const bool idle = !place.document.activity().has_value();
     if (button(c.ui, "operation.preview", "Preview",
                {.enabled = form.valid() && place.document.can(RequestKind::Preview),
@@ -213,14 +261,10 @@ void draw_actions(PanelContext& c, const OperationForm& form) {
                 .help = "Run and show the result without adding an edit"}))
         place.preview();
     ImGui::SameLine(0, c.ui.grid(1));
-    const bool change = form.edit().has_value();
-    if (button(c.ui, "operation.apply", change ? "Change" : "Apply",
-               {.primary = true,
-                .enabled = place.can_apply(),
-                .width = width,
-                .help = change ? "Run the edit with these values; later edits become pending"
-                               : "Run and add it as an edit; can be undone"}))
-        place.apply();
+    if (paints(form))
+        draw_run(c, rerun.edits > 0, room - 2 * width);
+    else
+        draw_apply(c, form, rerun.edits > 0, room - 2 * width);
     ImGui::SameLine(0, c.ui.grid(1));
     if (!place.form()) return;
     if (button(c.ui, "operation.cancel", "Cancel",
@@ -265,7 +309,8 @@ float advice_height(const PanelContext& c) {
 float footer_height(const PanelContext& c, const OperationForm& form) {
     const float line = ImGui::GetFrameHeightWithSpacing();
     const std::size_t remedies = shown_remedies(c, problem_of(c)).size();
-    const float more = (form.edit() ? line : 0) + line * static_cast<float>(remedies);
+    const float cost = rerun_behind(c, form).edits > 0 ? ImGui::GetTextLineHeightWithSpacing() : 0;
+    const float more = (form.edit() ? line : 0) + line * static_cast<float>(remedies) + cost;
     return advice_height(c) + line + more + c.ui.grid(1);
 }
 
@@ -341,6 +386,8 @@ void draw_form(PanelContext& c, const ScreenRect& rect) {
 void draw_operation_panel(PanelContext& c, const ScreenRect& rect) {
     if (c.place.form())
         draw_form(c, rect);
+    else if (c.place.get<ResultFeature>().card() != nullptr)
+        draw_result_card(c, rect);
     else
         draw_list(c, rect);
 }

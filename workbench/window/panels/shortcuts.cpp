@@ -115,7 +115,7 @@ void handle_shortcuts(PanelContext& c) {
     handle_text_size(c);
     handle_files(c);
     if (keys.has(KeyCommand::Preview)) c.place.preview();
-    if (keys.has(KeyCommand::Apply)) c.place.apply();
+    if (keys.has(KeyCommand::Apply)) c.place.apply_and_run();
     for (const auto& feature : c.place.features.all()) feature->keys(c);
     handle_view_keys(c);
 }

@@ -4,7 +4,6 @@
 
 #include <imgui.h>
 
-#include "geometry/kernel/wording.h"
 #include "workbench/window/case/readable.h"
 #include "workbench/window/core/shown.h"
 #include "workbench/window/panels/message_panel.h"
@@ -15,12 +14,6 @@
 #include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
-
-std::string grouped(std::size_t number) {
-    std::string digits = std::to_string(number);
-    for (int at = static_cast<int>(digits.size()) - 3; at > 0; at -= 3) digits.insert(at, ",");
-    return digits;
-}
 
 namespace {
 
@@ -65,16 +58,16 @@ void draw_figures(PanelContext& c, float end) {
     const SurfaceChange* change =
         document.previewed() ? &document.previewed()->result().change : nullptr;
     const auto volume = change != nullptr ? change->volume_after : figures.volume;
-    if (volume) figure(c.ui, end, "Volume", formatted(*volume, "%.1f mm\u00B3"));
+    if (volume) figure(c.ui, end, "Volume", readable_number(*volume) + " mm\u00B3");
     if (change == nullptr && figures.inside_out) draw_inside_out(c.ui);
     if (change != nullptr && change->largest_deviation)
         figure(c.ui, end, "Preview differs by up to",
-               formatted(*change->largest_deviation, "%.3f mm"));
+               readable_number(*change->largest_deviation) + " mm");
     else if (figures.deviation)
         figure(
             c.ui, end, "Deviation from source",
-            formatted(figures.deviation->mean, "mean %.3f, ") +
-                formatted(figures.deviation->largest, "largest %.3f mm"),
+            "mean " + readable_number(figures.deviation->mean) + ", largest " +
+                readable_number(figures.deviation->largest) + " mm",
             "Distance of the shown wall from the source, without removed parts and what was made "
             "at the ends");
 }

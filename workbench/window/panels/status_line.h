@@ -8,7 +8,4 @@ namespace vesselbench {
 /// Below everything: figures of the model, device, progress with a cancel button.
 void draw_status_line(PanelContext& context, const ScreenRect& rect);
 
-/// "12,400"
-[[nodiscard]] std::string grouped(std::size_t number);
-
 }  // namespace vesselbench

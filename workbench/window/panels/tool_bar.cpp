@@ -23,7 +23,7 @@ void draw_files(PanelContext& c) {
     const bool open = place.document.is_open();
     if (icon_button(c.ui, "tool.home", icons::kHome, "Close the case and show the start screen",
                     open))
-        leave(c, Leaving::Case);
+        leave(c.core, c.shown, Leaving::Case);
     ImGui::SameLine();
     if (icon_button(c.ui, "tool.open", icons::kOpen,
                     "Open a project, a surface or an image  Ctrl+O"))

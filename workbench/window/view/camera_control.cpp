@@ -69,20 +69,45 @@ void CameraControl::face(StandardView side) {
 }
 
 void CameraControl::forget() {
+    leave_project();
     endoscope_ = {};
     flight_.reset();
     picker_.forget();
     centring_.reset();
     outside_.reset();
-    framed_project_.clear();
     framed_camera_.reset();
+}
+
+void CameraControl::leave_project() {
+    if (!std::exchange(has_project_, false)) return;
+    const ViewCamera last = outside_.value_or(camera_);
+    const bool untouched =
+        !std::exchange(begun_, false) || (framed_camera_ == last && !kept_.camera());
+    kept_.close(untouched ? std::nullopt : std::optional(last));
+}
+
+bool CameraControl::follow_project(const Document& document) {
+    kept_.update();
+    if (std::exchange(seen_opened_, document.opened()) == document.opened()) return false;
+    leave_project();
+    if (!document.is_open()) return true;
+    kept_.open(document.project(), document.snapshot()->read_only_reason);
+    has_project_ = true;
+    return true;
 }
 
 // --- framing
 
-bool CameraControl::begin(const std::filesystem::path& project, const ViewContent& content) {
-    if (framed_project_ == project || (content.surface == nullptr && !content.image)) return false;
-    framed_project_ = project;
+bool CameraControl::begin(const ViewContent& content) {
+    const bool empty = content.surface == nullptr && !content.image;
+    if (begun_ || empty || !kept_.is_read()) return false;
+    begun_ = true;
+    const auto left = kept_.camera();
+    if (left) {
+        camera_ = *left;
+        framed_camera_.reset();
+        return true;
+    }
     camera_ = content.surface != nullptr ? facing(camera_, StandardView::Anterior) : kObliqueView;
     frame(content);
     return true;
@@ -159,7 +184,8 @@ void CameraControl::handle_view_keys(const KeyCommands& keys, const ViewContent&
     if (keys.has(KeyCommand::FrameAll)) frame(content);
 }
 
-void CameraControl::take_look(const Workplace& place) {
+void CameraControl::take_look(const Workplace& place, const ViewContent& content) {
+    if (std::exchange(seen_frames_, place.frames()) != place.frames()) frame(content);
     const bool asked = std::exchange(seen_looks_, place.looks()) != place.looks();
     if (is_inside()) return flight_.reset();
     if (asked && place.looked_at()) {

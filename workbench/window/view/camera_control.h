@@ -1,6 +1,6 @@
 #pragma once
 
-#include <filesystem>
+#include <functional>
 #include <optional>
 
 #include "gpu/render/pick.h"
@@ -8,6 +8,7 @@
 #include "workbench/window/drawing/pixel_view.h"
 #include "workbench/window/drawing/view_choice.h"
 #include "workbench/window/features/flight/endoscope.h"
+#include "workbench/window/view/kept_camera.h"
 #include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
@@ -22,8 +23,14 @@ struct ViewContent {
 /// The 3D view's camera: frames a model, follows mouse and keys, and flies through the lumen.
 class CameraControl {
 public:
-    /// \param renderer must outlive it
-    explicit CameraControl(Renderer& renderer) : picker_(renderer) {}
+    /// \param renderer must outlive it \param wake as Viewport's
+    CameraControl(Renderer& renderer, const std::function<void()>& wake)
+        : picker_(renderer), kept_(wake) {}
+
+    ~CameraControl() { leave_project(); }
+
+    CameraControl(const CameraControl&) = delete;
+    CameraControl& operator=(const CameraControl&) = delete;
 
     [[nodiscard]] const ViewCamera& camera() const { return camera_; }
 
@@ -35,7 +42,9 @@ public:
     [[nodiscard]] bool is_inside() const { return outside_.has_value(); }
 
     /// True while a place is searched, or the camera flies.
-    [[nodiscard]] bool pending() const { return picker_.pending() || is_flying(); }
+    [[nodiscard]] bool pending() const {
+        return picker_.pending() || is_flying() || kept_.pending();
+    }
 
     /// True while it moves by itself: frames should follow one another.
     [[nodiscard]] bool is_flying() const { return endoscope_.moves() || flight_; }
@@ -45,8 +54,16 @@ public:
 
     // --- framing
 
-    /// Frames the model of a project that is seen for the first time. \return false if it is not
-    [[nodiscard]] bool begin(const std::filesystem::path& project, const ViewContent& content);
+    /// Once a frame: a project that was opened shows its model as it was left.
+    /// \return true if another project was opened
+    bool follow_project(const Document& document);
+
+    /// Frames the model of a project that is seen for the first time, unless it was left in another
+    /// view. \return false if it is seen already
+    [[nodiscard]] bool begin(const ViewContent& content);
+
+    /// False while it is not known how the project was left.
+    [[nodiscard]] bool has_begun() const { return begun_; }
 
     void frame(const ViewContent& content);
 
@@ -70,7 +87,7 @@ public:
 
     /// Flies to the place that is to be looked at, and turns to its outside. Once a frame; what the
     /// user does to the camera ends it.
-    void take_look(const Workplace& place);
+    void take_look(const Workplace& place, const ViewContent& content);
 
     /// The place under the mouse becomes the centre of turns as soon as it is found, unless the
     /// view is moved before.
@@ -90,6 +107,7 @@ public:
     }
 
 private:
+    void leave_project();
     void handle_view_keys(const KeyCommands& keys, const ViewContent& content);
     void continue_flight(double seconds);
 
@@ -100,13 +118,16 @@ private:
     };
 
     ViewCamera camera_;
-    int seen_looks_ = 0;
+    int seen_looks_ = 0, seen_frames_ = 0;
     std::optional<Flight> flight_;  ///< to a place that is looked at
     Endoscope endoscope_;
-    Picker picker_;                            ///< for the centre
-    std::optional<ViewCamera> centring_;       ///< the camera whose centre is searched
-    std::optional<ViewCamera> outside_;        ///< the camera before a flight through the lumen
-    std::filesystem::path framed_project_;     ///< whose model the camera was set for
+    Picker picker_;                       ///< for the centre
+    std::optional<ViewCamera> centring_;  ///< the camera whose centre is searched
+    std::optional<ViewCamera> outside_;   ///< the camera before a flight through the lumen
+    KeptCamera kept_;
+    int seen_opened_ = 0;                      ///< Document::opened()
+    bool has_project_ = false;                 ///< that has not been left
+    bool begun_ = false;                       ///< the camera was set for the project's model
     std::optional<ViewCamera> framed_camera_;  ///< as it was set; another one is the user's
 };
 

@@ -59,7 +59,7 @@ struct Viewport::Impl {
     explicit Impl(const std::function<void()>& wake)
         : ask_for_frame(wake),
           scene(wake, guard),
-          camera(renderer),
+          camera(renderer, wake),
           brush(renderer),
           places(renderer, wake),
           spots(renderer, wake),
@@ -73,6 +73,9 @@ struct Viewport::Impl {
     [[nodiscard]] ViewMouse take_mouse(PanelContext& c, const ScreenRect& area) const;
     void follow_scene(PanelContext& c, const ScreenRect& area);
     void frame_change(PanelContext& c, ViewScene::Change change);
+
+    [[nodiscard]] bool mouse_works() const { return mouse_over || ImGui::IsAnyMouseDown(); }
+
     void handle_input(PanelContext& c, const ViewMouse& mouse);
     void handle_brush(PanelContext& c);
     void handle_mouse(PanelContext& c);
@@ -116,7 +119,9 @@ struct Viewport::Impl {
     ClippedCount clipped;
     ViewPicture picture;
     SliceRow slice_row;
-    bool pressed_spot = false;  ///< the mouse was pressed in a magnified spot
+    bool pressed_spot = false;                 ///< the mouse was pressed in a magnified spot
+    bool mouse_over = false;                   ///< the view, in the last frame
+    bool new_model = false, new_room = false;  ///< that the camera has not followed yet
 };
 
 Viewport::Viewport(std::function<void()> wake) : impl_(std::make_unique<Impl>(wake)) {}
@@ -177,17 +182,27 @@ ViewMouse Viewport::Impl::take_mouse(PanelContext& c, const ScreenRect& area) co
 
 void Viewport::Impl::follow_scene(PanelContext& c, const ScreenRect& area) {
     if (camera.take_centre()) switch_enlarged(c.shown, Enlarged::Model);
-    camera.take_look(c.place);
+    if (camera.follow_project(c.place.document)) new_model = new_room = false;
+    camera.take_look(c.place, content());
     const ViewScene::Change change = scene.update(c, area);
     frame_change(c, change);
     look();
 }
 
+/// Never under the mouse while it works on the view, nor for what is only tried out: the camera
+/// follows when the mouse has left the view, and the form is closed.
 void Viewport::Impl::frame_change(PanelContext& c, ViewScene::Change change) {
-    if (change == ViewScene::Change::None || c.place.document.is_painting()) return;
-    const bool first =
-        change == ViewScene::Change::Model && camera.begin(c.place.document.project(), content());
-    if (!first) camera.follow(content());
+    new_model |= change == ViewScene::Change::Model;
+    new_room |= change == ViewScene::Change::Room;
+    if (new_model && camera.begin(content())) {
+        new_model = new_room = false;
+        return;
+    }
+    if (!camera.has_begun() || mouse_works() || c.place.document.is_painting()) return;
+    const bool follows = std::exchange(new_room, false) || (new_model && !c.place.form());
+    if (!follows) return;
+    new_model = new_model && c.place.form().has_value();
+    camera.follow(content());
 }
 
 void Viewport::Impl::handle_input(PanelContext& c, const ViewMouse& mouse) {
@@ -239,7 +254,7 @@ void Viewport::Impl::handle_mouse(PanelContext& c) {
 
 /// What is chosen to be seen, before it is drawn.
 void Viewport::Impl::choose(PanelContext& c) {
-    if (!handles.holds_left()) camera.reach(handles.beyond(screen()), content());
+    if (!mouse_works()) camera.reach(handles.beyond(screen()), content());
     camera.fly(c);
     look();
     scene.choose(
@@ -346,6 +361,7 @@ void Viewport::Impl::draw(PanelContext& c, const ScreenRect& area) {
                 {.back = c.ui.theme.view_below, .padding = 0, .scrolls = false});
     follow_scene(c, area);
     const ViewMouse mouse = take_mouse(c, area);
+    mouse_over = mouse.over;
     handle_input(c, mouse);
     choose(c);
     guard.run([&] { pick_places(c, mouse); });

@@ -57,6 +57,7 @@ bool button(Ui& ui, const std::string& name, const std::string& label, const But
     ImGui::EndDisabled();
     ImGui::PopStyleColor(5);
     ui.item(name, look.enabled);
+    ui.say(name, label);
     if (!look.help.empty()) help_on_hover(ui, look.help);
     return clicked;
 }

@@ -75,6 +75,7 @@ bool row(Ui& ui, const std::string& name, const RowLook& look) {
     const bool clicked =
         ImGui::InvisibleButton(name.c_str(), {width, row_height(ui, !look.detail.empty())});
     ui.item(name, look.enabled);
+    ui.say(name, look.title);
     if (ImGui::IsItemVisible()) {
         const Places places = places_of(ui, look);
         draw_background(ui, look, places);

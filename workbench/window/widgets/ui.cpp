@@ -20,4 +20,8 @@ void Ui::item(const std::string& name, const ScreenRect& rect, bool enabled) {
     items_[name] = {rect, enabled};
 }
 
+void Ui::say(const std::string& name, const std::string& label) {
+    if (const auto found = items_.find(name); found != items_.end()) found->second.label = label;
+}
+
 }  // namespace vesselbench

@@ -28,6 +28,7 @@ struct ScreenRect {
 struct UiItem {
     ScreenRect rect;  ///< its visible part
     bool enabled = true;
+    std::string label = {};  ///< what it says; empty: an icon, or it says nothing lasting
 };
 
 /// What every panel needs to draw: colours, fonts, sizes; and the register of interactive items by
@@ -48,6 +49,9 @@ public:
 
     /// Registers a rectangle.
     void item(const std::string& name, const ScreenRect& rect, bool enabled = true);
+
+    /// What an item says, if it is registered.
+    void say(const std::string& name, const std::string& label);
 
     [[nodiscard]] const std::map<std::string, UiItem>& items() const { return items_; }
 

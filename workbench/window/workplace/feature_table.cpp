@@ -15,6 +15,7 @@
 #include "workbench/window/features/openings/openings_feature.h"
 #include "workbench/window/features/picture/picture_feature.h"
 #include "workbench/window/features/quality/quality_feature.h"
+#include "workbench/window/features/result/result_feature.h"
 #include "workbench/window/features/review/review_feature.h"
 #include "workbench/window/features/slices/slices_feature.h"
 
@@ -36,6 +37,7 @@ void add_features(Core& core, const LiveDevice& device) {
     all.add(std::make_unique<BrushFeature>(core));
     all.add(std::make_unique<FindingsFeature>(core));
     all.add(std::make_unique<PictureFeature>());
+    all.add(std::make_unique<ResultFeature>(core));
     all.add(std::make_unique<ReviewFeature>(core));
 }
 

@@ -3,6 +3,7 @@ import { boxOf, onlyIn } from './surface.js';
 
 const KEPT = 6;            // prepared edits
 const WHOLE = 0.6;         // a changed box of more than this share of the model is shown as the whole model
+const CONTEXT = 0.4;       // of the model's size that the first picture of an edit shows at least
 const FRONT = [0.25, -1, 0.25];
 
 const minus = (a, b) => a.map((x, k) => x - b[k]);
@@ -37,6 +38,11 @@ export function framing(edit, { before, after }, place = edit.place, radius = ed
   const size = Math.max(3 * (radius ?? 0), changed ? 1.25 * half(changed) : 0, 0.06 * half(whole));
   const normal = edit.outward ?? normalAt(surface, target);
   return { centre: changed && place ? middle(changed) : target, radius: Math.min(size, half(whole)), from: oblique(normal) };
+}
+
+/** The same with enough of the model around it to see where it is. */
+export function withContext(frame, { before, after }) {
+  return { ...frame, radius: Math.max(frame.radius, CONTEXT * half(boxOf((after ?? before).points))) };
 }
 
 export class Preparer {

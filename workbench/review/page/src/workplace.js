@@ -3,7 +3,7 @@ import { calm } from './theme.js';
 import { deviationRamp, rampGradient } from './colours.js';
 import { bindClicks } from './drawing.js';
 import { Marks, openingsOf } from './pins.js';
-import { framing, Preparer } from './prepare.js';
+import { framing, Preparer, withContext } from './prepare.js';
 import { MODES, Stage } from './scene.js';
 import { drawScaleBar } from './scale_bar.js';
 import { Slices } from './slices.js';
@@ -220,7 +220,7 @@ export class Workplace {
     this.openings = openingsOf(after ?? before);
     this.fitMode(shown);
     this.stage?.show(before, after, difference);
-    if (!nothing) this.look();
+    if (!nothing) this.look(null, true);
     else fill(byId('slices'));
     this.markTool();
     this.refresh();
@@ -247,12 +247,12 @@ export class Workplace {
     this.refresh();
   }
 
-  /** Looks at what changed, or at a place. */
-  look(place) {
+  /** Looks at what changed, or at a place. @param {boolean} context with what is around it */
+  look(place, context = false) {
     if (!this.shown) return;
     const frame = place ? framing({ ...this.edit, changedBox: null }, this.shown, place, this.edit.radius ?? 1.5)
       : framing(this.edit, this.shown, this.item?.place ?? this.edit.place, this.item?.radius ?? this.edit.radius);
-    this.aim(frame);
+    this.aim(context ? withContext(frame, this.shown) : frame);
     const { before, after } = this.shown;
     if (this.contours) this.slices.show(this.edit, before, after, place ?? this.item?.place ?? this.edit.place ?? frame.centre, frame.radius);
   }

@@ -1,6 +1,6 @@
 #include "workbench/window/features/colours/colours_feature.h"
 
-#include "geometry/kernel/wording.h"
+#include "workbench/window/case/readable.h"
 #include "workbench/window/core/panel_context.h"
 #include "workbench/window/core/shown.h"
 #include "workbench/window/features/live/live_feature.h"
@@ -27,9 +27,9 @@ void ColoursFeature::look_at_worst(int steps) {
         steps);
     if (!found) return document.tell(make_message(MessageKind::Remark, why_no_worst()));
     core_.look_at(found->place, found->outward);
-    std::string words = std::string(info.label) + " " + formatted(found->value);
+    std::string words = std::string(info.label) + " " + readable_number(found->value);
     if (std::string(info.unit) != "-") words += std::string(" ") + info.unit;
-    if (found->sharpness) words += ", change of orientation " + formatted(*found->sharpness);
+    if (found->sharpness) words += ", change of orientation " + readable_number(*found->sharpness);
     document.tell(make_message(MessageKind::Remark, words + ": worst place " + worst_.position()));
 }
 

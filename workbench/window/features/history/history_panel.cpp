@@ -7,6 +7,7 @@
 
 #include <imgui.h>
 
+#include "geometry/kernel/wording.h"
 #include "workbench/window/case/readable.h"
 #include "workbench/window/core/core.h"
 #include "workbench/window/core/shown.h"
@@ -66,9 +67,12 @@ float picture_width(float height) {
 Columns columns_of(const Ui& ui, const HistoryTree& tree, float width) {
     const float graph =
         ui.grid(3.5F) + static_cast<float>(std::min(tree.columns, kMostColumns)) * ui.em;
-    Columns columns{.picture = graph, .tools = width - ui.grid(0.5F) - 2 * ImGui::GetFrameHeight()};
+    const float side = ImGui::GetFrameHeight();
+    Columns columns{.picture = graph, .tools = width - ui.grid(0.5F) - 2 * side};
+    const bool folds =
+        std::ranges::any_of(tree.rows, [](const auto& row) { return row.fold != 0; });
     columns.title = graph + picture_width(row_height(ui)) + ui.grid(1);
-    columns.end = std::max(columns.title, columns.tools - ui.grid(0.5F));
+    columns.end = std::max(columns.title, columns.tools - ui.grid(0.5F) - (folds ? side : 0));
     const HistoryColumns shares = history_columns((columns.end - columns.title) / ui.em);
     columns.change = columns.title + shares.name * ui.em;
     columns.author = columns.change + shares.change * ui.em;
@@ -88,15 +92,23 @@ std::string first_line(const std::string& words) {
     return words.substr(0, words.find('\n'));
 }
 
+/// "Smooth (printing)", "12 strokes of Brush smooth"
+std::string row_title(const HistoryRow& state) {
+    const std::string title =
+        state.strokes > 1 ? counted(state.strokes, "stroke") + " of " + readable(state.brush)
+                          : readable(state.title);
+    return state.variant.empty() ? title : title + " (" + state.variant + ")";
+}
+
 void draw_cells(const Ui& ui, const HistoryRow& state, const Columns& columns, float y) {
     const Paint strong = state.on_path ? ui.theme.text : ui.theme.muted;
     ImGui::PushFont(state.current ? ui.fonts.medium : ui.fonts.regular);
-    const std::string title = readable(state.title);
+    const std::string title = row_title(state);
     cell(ui, columns.title, columns.change, y, title, strong);
     const float wide = ImGui::CalcTextSize(title.c_str()).x;
     ImGui::PopFont();
     const std::string words =
-        state.note.empty() ? state.arguments
+        state.note.empty() ? (state.strokes > 1 ? "" : state.arguments)
                            : "\u201C" + first_line(state.note) + "\u201D  " + state.arguments;
     const float left = columns.title + wide + ui.grid(1);
     const float until = state.change.empty() ? columns.author : columns.change;
@@ -134,7 +146,7 @@ void draw_help(PanelContext& c, const HistoryRow& state) {
     const auto line = [&](const std::string& words, Paint colour) {
         text(c.ui, broken(words, c.ui.em * 24 - ImGui::GetCursorPosX()), colour);
     };
-    line(readable(state.title) + " " + state.arguments, c.ui.theme.text);
+    line(row_title(state) + (state.strokes > 1 ? "" : " " + state.arguments), c.ui.theme.text);
     if (!state.note.empty()) line("\u201C" + state.note + "\u201D", c.ui.theme.text);
     if (!state.change.empty()) line(state.change, c.ui.theme.muted);
     if (!state.time.empty()) line(state.time + "  " + state.author, c.ui.theme.muted);
@@ -156,11 +168,27 @@ bool quiet_icon(PanelContext& c, const std::string& name, const char* icon, cons
     return clicked;
 }
 
+/// Lists strokes one by one, or in one row.
+void draw_fold(PanelContext& c, const HistoryRow& state) {
+    const bool is_folded = state.strokes > 1;
+    if (!quiet_icon(c, "history.fold." + std::to_string(state.fold),
+                    is_folded ? icons::kRight : icons::kDown,
+                    is_folded ? "List the strokes one by one" : "Show the strokes in one row",
+                    false))
+        return;
+    if (is_folded)
+        c.shown.unfolded_states.insert(state.fold);
+    else
+        c.shown.unfolded_states.erase(state.fold);
+}
+
 /// The buttons at the row's end.
 void draw_tools(PanelContext& c, const HistoryRow& state, ImVec2 at) {
     const std::string id = std::to_string(state.state);
+    ImGui::SetCursorScreenPos({at.x - ImGui::GetFrameHeight(), at.y});
+    if (state.fold != 0) draw_fold(c, state);
     ImGui::SetCursorScreenPos(at);
-    if (state.edit.id != 0 &&
+    if (state.edit.id != 0 && state.strokes == 1 &&
         quiet_icon(c, "history.note." + id, icons::kNote,
                    state.note.empty() ? "Add a note to this edit" : state.note,
                    !state.note.empty()))
@@ -183,7 +211,7 @@ void draw_row(PanelContext& c, const HistoryRow& state, const Columns& columns, 
     ImGui::SetItemAllowOverlap();
     const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
     // A click on its middle must not hit its buttons.
-    register_row(c.ui, name, from, {from.x + columns.tools, to.y});
+    register_row(c.ui, name, from, {from.x + columns.end, to.y});
     if (!seen) return;
     if (state.current || hovered)
         ImGui::GetWindowDrawList()->AddRectFilled(
@@ -191,7 +219,7 @@ void draw_row(PanelContext& c, const HistoryRow& state, const Columns& columns, 
     draw_picture(c, state, {from.x + columns.picture, from.y}, height);
     draw_cells(c.ui, state, columns, from.y + (height - c.ui.em) / 2);
     const ImVec2 next = ImGui::GetCursorPos();
-    if (hovered && ImGui::GetMousePos().x < from.x + columns.tools) draw_help(c, state);
+    if (hovered && ImGui::GetMousePos().x < from.x + columns.end) draw_help(c, state);
     const float side = ImGui::GetFrameHeight();
     draw_tools(c, state, {from.x + columns.tools, from.y + (height - side) / 2});
     ImGui::SetCursorPos(next);
@@ -229,7 +257,7 @@ void show_current(const HistoryTree& tree, float top, float height) {
 }  // namespace
 
 void draw_history(PanelContext& c) {
-    const HistoryTree& tree = c.core.history();
+    const HistoryTree tree = folded(c.core.history(), c.shown.unfolded_states);
     const float height = row_height(c.ui);
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {0, 0});
     const ImVec2 corner = ImGui::GetCursorScreenPos();

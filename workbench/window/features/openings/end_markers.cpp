@@ -9,6 +9,7 @@
 
 #include "geometry/kernel/wording.h"
 #include "gpu/role_colours.h"
+#include "workbench/window/case/readable.h"
 #include "workbench/window/core/core.h"
 #include "workbench/window/drawing/card.h"
 #include "workbench/window/drawing/region_lines.h"
@@ -141,8 +142,8 @@ void draw_end_badge(const Ui& ui, const ViewPixel& at, const EndRow& row, bool l
 }
 
 std::string end_text(const EndRow& row) {
-    return "End " + std::to_string(row.number) + ": diameter " + formatted(row.diameter) + " mm, " +
-           formatted(100.0 * row.share, "%.0f %%") + " of the flow";
+    return "End " + std::to_string(row.number) + ": diameter " + readable_number(row.diameter) +
+           " mm, " + formatted(100.0 * row.share, "%.0f %%") + " of the flow";
 }
 
 bool EndMarkers::update(PanelContext& c, const PixelView& screen, bool over, bool clicked) {

@@ -7,6 +7,7 @@
 #include <imgui.h>
 
 #include "geometry/kernel/wording.h"
+#include "workbench/window/case/readable.h"
 #include "workbench/window/core/core.h"
 #include "workbench/window/features/openings/end_markers.h"
 #include "workbench/window/features/openings/openings_feature.h"
@@ -77,7 +78,7 @@ void draw_texts(const PanelContext& c, const EndRow& row, ImVec2 from, float wid
     draw_end_badge(ui, {from.x + pad + ui.em * 0.7F, from.y + height_of_row(ui) / 2}, row, lit);
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const float left = from.x + pad + ui.em * 2.0F;
-    const std::string size = formatted(row.diameter) + " mm";
+    const std::string size = readable_number(row.diameter) + " mm";
     draw.AddText({left, first}, ui.theme.text, size.c_str());
     const std::string share = formatted(100.0 * row.share, "%.0f %%");
     const float at = left + ui.em * 4.3F, end = from.x + width - width_of_buttons(ui);
