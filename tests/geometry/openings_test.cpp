@@ -407,6 +407,18 @@ SCENARIO("A cut that would remove another vessel's end is refused", "[geometry][
         place.plane.point.z() = 25.3;
         CHECK_THAT(trials.problem_of(place, upper), Catch::Contains("another opening"));
     }
+    THEN("one that is much wider than the end's own vessel is") {
+        CutTrials of_branch(tube, graph, ends, {1.5, 1.5});
+        CHECK_THAT(of_branch.problem_of(place, upper),
+                   Catch::Contains("4 mm wide, but the vessel is 1.5 mm wide"));
+    }
+    THEN("one where the wall lies inside out is") {
+        std::vector<Triangle> turned(tube.triangles().begin(), tube.triangles().end());
+        for (Triangle& t : turned) std::swap(t[0], t[1]);
+        const Surface inside_out = make_surface(tube.points(), turned);
+        CutTrials of_turned(inside_out, graph, ends, std::vector<double>(ends.size(), 0.0));
+        CHECK_THAT(of_turned.problem_of(place, upper), Catch::Contains("inside out"));
+    }
 }
 
 SCENARIO("Cutting fails with a clear text where it cannot be done", "[geometry][openings]") {
