@@ -37,12 +37,12 @@ def main():
     folds = cases.folds_of(measured)
     taught = cases.taught_cases(options)
     ridges = models.best_ridges(measured, folds, taught)
-    results = []
+    judged = []  # each case with models that did not see its patient
     for fold in range(cases.FOLDS):
-        seen = taught + [case for case in measured if folds[case.patient] != fold]
-        judged = models.Models(seen, ridges)
-        results += [choice.result_of(case, judged) for case in measured if folds[case.patient] == fold]
-    text = page.page_text(results, ridges)
+        blind = models.Models(taught + [case for case in measured if folds[case.patient] != fold], ridges)
+        judged += [(case, blind) for case in measured if folds[case.patient] == fold]
+    results = choice.results_of(judged)
+    text = page.page_text(results, ridges, choice.curves(judged))
     print(text)
     if options.page:
         with open(options.page, "w") as file:

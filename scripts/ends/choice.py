@@ -3,8 +3,15 @@ import dataclasses
 import math
 
 # As in end_choice.h and end_choice.cpp.
-LEAST_SHARE, CERTAIN, LIKELY, FEWEST_CUTS, FEWEST_OPENINGS = 0.05, 4.0, 2.0, 2, 2
-INLET_CERTAIN, WIDER_OUTLET = 1.2, 1.1
+LEAST_SHARE, LIKELY, FEWEST_CUTS, FEWEST_OPENINGS = 0.05, 2.0, 2, 2
+
+
+@dataclasses.dataclass
+class Limits:
+    """Where doubt ends; as in end_choice.h."""
+    certain: float = 4.0        # kCertain
+    inlet_certain: float = 1.2  # kInletCertain
+    wider_outlet: float = 1.1   # kWiderOutlet
 
 
 @dataclasses.dataclass
@@ -18,6 +25,11 @@ class Result:
     inlet: tuple     # (likelihood of the one that is taken, whether it is accepted), or None
     asked_inlet: bool = False
     widest_accepted: bool | None = None  # whether the widest open end is an inlet; None: all or none of them are
+
+
+# What the page shows of each limit beside the others as they are.
+TRIED = {"certain": (1.5, 2.0, 3.0, 4.0, 6.0, 9.0, 15.0), "inlet_certain": (1.0, 1.2, 1.5, 2.0, 3.0, 5.0, 9.0),
+         "wider_outlet": (1.0, 1.05, 1.1, 1.2, 1.4, 2.0)}
 
 
 def is_cut(end):
@@ -46,8 +58,9 @@ def ratio(p):
 class Choice:
     """Of one case: open and doubtful candidates, and the inlet."""
 
-    def __init__(self, case, models):
+    def __init__(self, case, models, limits):
         ends = case.ends
+        self.limits = limits
         odds = models.end_odds(case)
         self.opening = [0.0 if is_left_closed(e) or grazes(e) else p[0] for e, p in zip(ends, odds)]
         self.plain = [p[0] for p in odds]
@@ -57,9 +70,9 @@ class Choice:
             p = models.inlet_odds(case, candidates)
             self.by_inlet = sorted(zip(p, candidates), reverse=True)
             self.inlet_odds, self.inlet = self.by_inlet[0]
-            wider = WIDER_OUTLET * width(ends[self.inlet])
+            wider = limits.wider_outlet * width(ends[self.inlet])
             furcates = len(candidates) > 2
-            self.inlet_doubtful = any(furcates and p * INLET_CERTAIN > self.inlet_odds or width(ends[j]) > wider
+            self.inlet_doubtful = any(furcates and p * limits.inlet_certain > self.inlet_odds or width(ends[j]) > wider
                                       for p, j in self.by_inlet[1:])
         self.decide(ends)
 
@@ -75,10 +88,10 @@ class Choice:
                 self.doubtful.append(False)
             elif is_left_closed(end):
                 self.open.append(False)
-                self.doubtful.append(counts and odds >= CERTAIN)
+                self.doubtful.append(counts and odds >= self.limits.certain)
             else:
                 self.open.append(odds >= (1.0 if counts else LIKELY))
-                self.doubtful.append(counts and 1.0 / CERTAIN < odds < CERTAIN)
+                self.doubtful.append(counts and 1.0 / self.limits.certain < odds < self.limits.certain)
         for j in sorted(range(len(ends)), key=lambda j: -self.plain[j]):
             if sum(self.open) >= FEWEST_OPENINGS:
                 break
@@ -131,10 +144,10 @@ def widest_accepted(case):
     return max(roles)[1] if len({inlet for _, inlet in roles}) == 2 else None
 
 
-def result_of(case, models):
+def result_of(case, models, limits=Limits()):
     if not case.ends:
         return Result(case, "refused", False, [case.error[:120]], [], None)
-    choice = Choice(case, models)
+    choice = Choice(case, models, limits)
     widest = widest_accepted(case)
     why = faults(case, choice)
     known = [(p, label) for p, label in zip(choice.plain, case.labels) if label is not None]
@@ -144,3 +157,14 @@ def result_of(case, models):
     if any(choice.doubtful) or choice.inlet_doubtful:
         return Result(case, "doubt", bool(why), why, known, inlet, choice.inlet_doubtful, widest)
     return Result(case, "wrong" if why else "right", False, why, known, inlet, False, widest)
+
+
+def results_of(judged, limits=Limits()):
+    """\param judged: each case with models that did not see its patient"""
+    return [result_of(case, models, limits) for case, models in judged]
+
+
+def curves(judged):
+    """By limit: (value, results) of each value that is tried, the other limits as they are."""
+    return {name: [(value, results_of(judged, dataclasses.replace(Limits(), **{name: value}))) for value in values]
+            for name, values in TRIED.items()}

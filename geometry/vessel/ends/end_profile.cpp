@@ -59,8 +59,8 @@ void measure_line(const EndScene& scene, const std::vector<double>& courses, std
     profile.diameter = median(diameters);
     profile.widest = *std::ranges::max_element(diameters);
     const std::span<const double> all(diameters);
-    const double inner = mean(all.first(kSamples / 3));
-    profile.taper = inner > 0.0 ? mean(all.last(kSamples / 3)) / inner : 1.0;
+    profile.inner = mean(all.first(kSamples / 3));
+    profile.taper = profile.inner > 0.0 ? mean(all.last(kSamples / 3)) / profile.inner : 1.0;
     profile.straight = -1.0;
     for (const std::size_t other : graph.nodes[root].branches)
         if (other != index) {
@@ -69,6 +69,7 @@ void measure_line(const EndScene& scene, const std::vector<double>& courses, std
                 profile.straight,
                 -direction_from(graph, other, root).dot(direction_from(graph, index, root)));
         }
+    if (!(profile.parent > 0.0)) profile.inner = profile.diameter;  // that of both ends
     profile.tree = widest_course(courses, index);
     if (profile.parent > 0.0 && profile.length < kLongestNecked * profile.diameter)
         profile.neck = std::max(profile.neck, section_rise(scene.surface, graph, tip));
@@ -109,7 +110,7 @@ void add_others(const CenterlineGraph& graph, const std::vector<double>& courses
 /// A rim or cap where no line ends is a hole or a label in the side of the vessel that passes.
 void measure_lineless(const CenterlineGraph& graph, const std::vector<double>& courses,
                       const SurfaceEnd& end, EndProfile& profile) {
-    profile.diameter = profile.widest = end.diameter;
+    profile.diameter = profile.widest = profile.inner = end.diameter;
     profile.tree = widest_course(courses, courses.size());
     const auto line = nearest_place(graph, end.centre);
     for (int side = 0; line && side < 2; ++side) profile.add_other(courses[line->place.branch]);

@@ -33,6 +33,18 @@ std::vector<double> flowing(const CenterlineGraph& graph, const std::vector<Surf
     return diameters;
 }
 
+/// The same by the widths next to the furcations: an end may be dilated, or cut in a narrowing.
+std::vector<double> flowing_inside(std::vector<double> flowing, const CenterlineGraph& graph,
+                                   const std::vector<SurfaceEnd>& ends,
+                                   const std::vector<EndProfile>& profiles) {
+    for (std::size_t e = 0; e < ends.size(); ++e) {
+        if (!ends[e].tip) continue;
+        double& diameter = flowing[branch_of_tip(graph, *ends[e].tip)];
+        if (diameter > 0.0) diameter = profiles[e].inner;
+    }
+    return flowing;
+}
+
 /// A trunk may end in a spike, or its course lead through a bend that is narrower than its end.
 /// Both ends of a vessel without furcations have its course in common.
 double width_of(const SurfaceEnd& end, const EndProfile& profile) {
@@ -51,13 +63,16 @@ public:
         : ends_(ends),
           profiles_(profiles),
           opening_(opening),
-          tree_(scene.graph, flowing(scene.graph, ends, profiles, opening)) {
+          tree_(scene.graph, flowing(scene.graph, ends, profiles, opening)),
+          inside_(scene.graph, flowing_inside(flowing(scene.graph, ends, profiles, opening),
+                                              scene.graph, ends, profiles)) {
         for (std::size_t e = 0; e < ends.size(); ++e) {
             if (opening[e] < kLeastOpening) continue;
             open_.push_back(e);
             widest_ = std::max(widest_, width_of(ends[e], profiles[e]));
             closure_ = std::max(closure_, closure_of(ends[e], profiles[e]));
             course_ = std::max(course_, profiles[e].diameter);
+            inner_ = std::max(inner_, profiles[e].inner);
             middle_ += ends[e].centre;
         }
         middle_ /= static_cast<double>(std::max<std::size_t>(1, open_.size()));
@@ -87,16 +102,19 @@ public:
                 height,
                 size > 0.0 ? height : 0.0,
                 height * size,
-                std::log(opening_[e] / (1.0 - opening_[e] + 1e-6))};
+                std::log(opening_[e] / (1.0 - opening_[e] + 1e-6)),
+                std::log(std::max(profiles_[e].inner, 1e-6) / inner_),
+                end.tip ? inside_.figures(*end.tip).murray : 0.0,
+                std::log(closure_of(end, profiles_[e]) / std::max(profiles_[e].inner, 1e-6))};
     }
 
 private:
     const std::vector<SurfaceEnd>& ends_;
     const std::vector<EndProfile>& profiles_;
     const std::vector<double>& opening_;
-    FlowTree tree_;
+    FlowTree tree_, inside_;
     std::vector<std::size_t> open_;
-    double widest_ = 0.0, closure_ = 0.0, course_ = 1e-6, reach_ = 0.0;
+    double widest_ = 0.0, closure_ = 0.0, course_ = 1e-6, inner_ = 1e-6, reach_ = 0.0;
     Vec3 middle_ = Vec3::Zero();
 };
 
