@@ -1,6 +1,10 @@
 """The program's choice (geometry/vessel/ends/end_choice.cpp) by given models, and whether it is right."""
+import csv
 import dataclasses
 import math
+import os
+
+from common import ROOT
 
 # As in end_choice.h and end_choice.cpp.
 LEAST_SHARE, LIKELY, FEWEST_CUTS, FEWEST_OPENINGS = 0.05, 2.0, 2, 2
@@ -8,10 +12,19 @@ LEAST_SHARE, LIKELY, FEWEST_CUTS, FEWEST_OPENINGS = 0.05, 2.0, 2, 2
 
 @dataclasses.dataclass
 class Limits:
-    """Where doubt ends; as in end_choice.h."""
-    certain: float = 4.0        # kCertain
-    inlet_certain: float = 1.2  # kInletCertain
-    wider_outlet: float = 1.1   # kWiderOutlet
+    """Where doubt ends: EndLimits of end_choice.h."""
+    certain: float
+    inlet_certain: float
+    wider_outlet: float
+
+
+def present_limits():
+    with open(os.path.join(ROOT, "geometry", "vessel", "ends", "end_limits.csv")) as table:
+        rows = csv.reader(line for line in table if line[0] != "#")
+        return Limits(**{name: float(value) for name, value in list(rows)[1:]})
+
+
+PRESENT = present_limits()
 
 
 @dataclasses.dataclass
@@ -92,11 +105,35 @@ class Choice:
             else:
                 self.open.append(odds >= (1.0 if counts else LIKELY))
                 self.doubtful.append(counts and 1.0 / self.limits.certain < odds < self.limits.certain)
+        self.continue_vessels(ends, reference)
         for j in sorted(range(len(ends)), key=lambda j: -self.plain[j]):
             if sum(self.open) >= FEWEST_OPENINGS:
                 break
             if not self.open[j]:
                 self.open[j] = self.doubtful[j] = True
+
+
+    def continue_vessels(self, ends, reference):
+        behind = {}
+        for j, end in enumerate(ends):
+            for vessel in end["odds"].get("through", []) if j != self.inlet else []:
+                behind.setdefault(vessel["vessel"], (vessel["diameter_mm"], []))[1].append(j)
+        for diameter, those in sorted(behind.values(), key=lambda of_vessel: len(of_vessel[1])):
+            share = min(1.0, (diameter / reference) ** 3) if reference > 0 else 0.0
+            if share > LEAST_SHARE:
+                self.continue_vessel(ends, those, share)
+
+    def continue_vessel(self, ends, behind, share):
+        """See end_choice.cpp."""
+        if any(self.open[j] and self.share[j] > LEAST_SHARE or self.doubtful[j] or is_left_closed(ends[j]) for j in behind):
+            return
+        none = math.prod(1.0 - self.plain[j] for j in behind)
+        closed = not any(self.open[j] for j in behind)
+        if closed and (1.0 - none) * self.limits.certain <= none:
+            return
+        likeliest = max(behind, key=lambda j: self.plain[j])
+        self.share[likeliest] = max(self.share[likeliest], share)
+        self.doubtful[likeliest] = closed
 
 
 def faults(case, choice):
@@ -144,7 +181,7 @@ def widest_accepted(case):
     return max(roles)[1] if len({inlet for _, inlet in roles}) == 2 else None
 
 
-def result_of(case, models, limits=Limits()):
+def result_of(case, models, limits=PRESENT):
     if not case.ends:
         return Result(case, "refused", False, [case.error[:120]], [], None)
     choice = Choice(case, models, limits)
@@ -159,12 +196,12 @@ def result_of(case, models, limits=Limits()):
     return Result(case, "wrong" if why else "right", False, why, known, inlet, False, widest)
 
 
-def results_of(judged, limits=Limits()):
+def results_of(judged, limits=PRESENT):
     """\param judged: each case with models that did not see its patient"""
     return [result_of(case, models, limits) for case, models in judged]
 
 
 def curves(judged):
     """By limit: (value, results) of each value that is tried, the other limits as they are."""
-    return {name: [(value, results_of(judged, dataclasses.replace(Limits(), **{name: value}))) for value in values]
+    return {name: [(value, results_of(judged, dataclasses.replace(PRESENT, **{name: value}))) for value in values]
             for name, values in TRIED.items()}

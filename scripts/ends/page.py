@@ -1,7 +1,7 @@
 """The figures of the fit, of patients that it did not see, as Markdown."""
 import common
 import page_rows
-from ends.choice import Limits
+from ends.choice import PRESENT
 
 KINDS = ("right", "wrong", "doubt", "refused")
 BINS = ((0.0, 0.02), (0.02, 0.05), (0.05, 0.2), (0.2, 0.5), (0.5, 0.8), (0.8, 0.9), (0.9, 0.95), (0.95, 0.98), (0.98, 1.01))
@@ -108,8 +108,7 @@ def curve_table(curve, present):
 
 
 def curves_text(curves):
-    present = Limits()
-    return "\n".join(f"{LIMITS[name]}:\n\n{curve_table(curve, getattr(present, name))}" for name, curve in curves.items())
+    return "\n".join(f"{LIMITS[name]}:\n\n{curve_table(curve, getattr(PRESENT, name))}" for name, curve in curves.items())
 
 
 def page_text(results, ridges, curves):

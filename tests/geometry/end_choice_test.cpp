@@ -536,7 +536,8 @@ EndVerdict verdict_of(double opening, double share) {
     EndVerdict verdict{.odds = {opening, 1.0 - opening, 0.0}, .share = share};
     const double odds = verdict.odds.for_opening();
     verdict.open = odds >= 1.0;
-    verdict.doubtful = share > kLeastShare && odds < kCertain && odds > 1.0 / kCertain;
+    verdict.doubtful =
+        share > kLeastShare && odds < end_limits().certain && odds > 1.0 / end_limits().certain;
     return verdict;
 }
 

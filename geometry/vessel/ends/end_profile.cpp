@@ -107,12 +107,22 @@ void add_others(const CenterlineGraph& graph, const std::vector<double>& courses
     for (int side = 0; side < 2; ++side) profile.add_other(courses[line->place.branch]);
 }
 
+/// Of the circle with the area of an open border, or of a cap [mm]; 0: there is none.
+double closure_width(const Surface& surface, const SurfaceEnd& end) {
+    if (end.patch) return end.closure;
+    Vec3 area = Vec3::Zero();
+    for (std::size_t i = 0; i < end.rim.size(); ++i)
+        area += 0.5 * (surface.points()[end.rim[i]] - end.centre)
+                          .cross(surface.points()[end.rim[(i + 1) % end.rim.size()]] - end.centre);
+    return 2.0 * std::sqrt(area.norm() / std::numbers::pi);
+}
+
 /// A rim or cap where no line ends is a hole or a label in the side of the vessel that passes.
-void measure_lineless(const CenterlineGraph& graph, const std::vector<double>& courses,
+void measure_lineless(const EndScene& scene, const std::vector<double>& courses,
                       const SurfaceEnd& end, EndProfile& profile) {
-    profile.diameter = profile.widest = profile.inner = end.diameter;
+    profile.diameter = profile.widest = profile.inner = closure_width(scene.surface, end);
     profile.tree = widest_course(courses, courses.size());
-    const auto line = nearest_place(graph, end.centre);
+    const auto line = nearest_place(scene.graph, end.centre);
     for (int side = 0; line && side < 2; ++side) profile.add_other(courses[line->place.branch]);
 }
 
@@ -149,16 +159,6 @@ EndKind kind_of(const EndScene& scene, const SurfaceEnd& end) {
     return border ? EndKind::Border : EndKind::Face;
 }
 
-/// Of the circle with the area of an open border, or of a cap [mm]; 0: there is none.
-double closure_width(const Surface& surface, const SurfaceEnd& end) {
-    if (end.patch) return end.closure;
-    Vec3 area = Vec3::Zero();
-    for (std::size_t i = 0; i < end.rim.size(); ++i)
-        area += 0.5 * (surface.points()[end.rim[i]] - end.centre)
-                          .cross(surface.points()[end.rim[(i + 1) % end.rim.size()]] - end.centre);
-    return 2.0 * std::sqrt(area.norm() / std::numbers::pi);
-}
-
 /// The line may end in a corner of an oblique or blunt closure, where it is narrow.
 void measure_closure(const Surface& surface, const SurfaceEnd& end, EndProfile& profile) {
     profile.closure = closure_width(surface, end);
@@ -177,7 +177,7 @@ EndProfile end_profile(const EndScene& scene, const std::vector<double>& courses
     if (end.tip)
         measure_line(scene, courses, *end.tip, profile);
     else
-        measure_lineless(scene.graph, courses, end, profile);
+        measure_lineless(scene, courses, end, profile);
     measure_closure(scene.surface, end, profile);
     return profile;
 }

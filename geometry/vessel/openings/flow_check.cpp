@@ -56,7 +56,7 @@ bool has_opening(const EndRecord& end) {
 
 /// It is certain that no blood flows there.
 bool is_certainly_closed(const EndRecord& end) {
-    return end.verdict && end.verdict->odds.for_opening() < 1.0 / kCertain;
+    return end.verdict && end.verdict->odds.for_opening() < 1.0 / end_limits().certain;
 }
 
 /// It was to be opened, or may be an opening. Of what was left closed beside cuts, the odds do not
