@@ -42,7 +42,7 @@ def main():
         blind = models.Models(taught + [case for case in measured if folds[case.patient] != fold], ridges)
         judged += [(case, blind) for case in measured if folds[case.patient] == fold]
     results = choice.results_of(judged)
-    text = page.page_text(results, ridges, choice.curves(judged))
+    text = page.page_text(results, ridges, choice.curves(judged), cases.made_kinds(options))
     print(text)
     if options.page:
         with open(options.page, "w") as file:

@@ -59,9 +59,10 @@ def grazes(end):
     return "in the side of a vessel" in end["why"]
 
 
-def width(end):
-    """Beside that of the widest candidate."""
-    return math.exp(end["odds"]["inlet"]["features"]["width"])
+def is_wider(end, other, limit):
+    """By its vessel, or by its rim or cap."""
+    these, those = end["odds"]["inlet"]["features"], other["odds"]["inlet"]["features"]
+    return any(math.exp(these[name] - those[name]) > limit for name in ("width", "closure"))
 
 
 def ratio(p):
@@ -83,10 +84,10 @@ class Choice:
             p = models.inlet_odds(case, candidates)
             self.by_inlet = sorted(zip(p, candidates), reverse=True)
             self.inlet_odds, self.inlet = self.by_inlet[0]
-            wider = limits.wider_outlet * width(ends[self.inlet])
             furcates = len(candidates) > 2
-            self.inlet_doubtful = any(furcates and p * limits.inlet_certain > self.inlet_odds or width(ends[j]) > wider
-                                      for p, j in self.by_inlet[1:])
+            inlet = ends[self.inlet]
+            self.inlet_doubtful = any(furcates and p * limits.inlet_certain > self.inlet_odds or
+                                      is_wider(ends[j], inlet, limits.wider_outlet) for p, j in self.by_inlet[1:])
         self.decide(ends)
 
     def decide(self, ends):
@@ -125,15 +126,13 @@ class Choice:
 
     def continue_vessel(self, ends, behind, share):
         """See end_choice.cpp."""
-        if any(self.open[j] and self.share[j] > LEAST_SHARE or self.doubtful[j] or is_left_closed(ends[j]) for j in behind):
+        if any(self.open[j] or self.doubtful[j] or is_left_closed(ends[j]) for j in behind):
             return
         none = math.prod(1.0 - self.plain[j] for j in behind)
-        closed = not any(self.open[j] for j in behind)
-        if closed and (1.0 - none) * self.limits.certain <= none:
-            return
-        likeliest = max(behind, key=lambda j: self.plain[j])
-        self.share[likeliest] = max(self.share[likeliest], share)
-        self.doubtful[likeliest] = closed
+        if (1.0 - none) * self.limits.certain > none:
+            likeliest = max(behind, key=lambda j: self.plain[j])
+            self.share[likeliest] = max(self.share[likeliest], share)
+            self.doubtful[likeliest] = True
 
 
 def faults(case, choice):

@@ -9,8 +9,6 @@ except ImportError:
 CLASSES = ("opening", "sac", "bump")
 RIDGES = (1e-2, 3e-3, 1e-3, 3e-4, 1e-4)
 LEAST_SHARE, SMALL_WEIGHT = 0.05, 0.3  # kLeastShare of end_choice.h; and the weight of an end with less
-# Patients have fewer dilated outlets than the orchard, whose dilations make necks that no vessel has.
-NOT_WIDEST = 0.1
 KNOWN = 64.0  # the bundled aneurysm, whose widest end is its sac: nobody shall be asked about the first example
 STEPS = 60
 
@@ -27,8 +25,7 @@ def case_weights(cases):
     for case in cases:
         anatomies[case.anatomy] = anatomies.get(case.anatomy, 0) + 1
         patients[case.patient] = patients.get(case.patient, 0) + 1
-    counts = {"not-widest": NOT_WIDEST, "known": KNOWN}
-    return {case.name: counts.get(case.made, 1.0) / math.sqrt(anatomies[case.anatomy] * patients[case.patient])
+    return {case.name: (KNOWN if case.made == "known" else 1.0) / math.sqrt(anatomies[case.anatomy] * patients[case.patient])
             for case in cases}
 
 

@@ -60,7 +60,7 @@ makes the cases from labelled vessels: as they are, closed by flat, domed, ragge
 and images of several resolutions, cut by the image's border, with stubs of cut branches, in other units, decimated, noisy,
 turned, and with an inlet that is not the widest end. `scripts/fit_ends.py --page docs/science/ends.md` writes this page. The
 patients are dealt to five folds; each case is judged by weights that were fitted without its patient. Made at {revision};
-{cases} cases of {patients} patients.
+{cases} cases of {patients} patients: of the orchard, {coverage}.
 
 **right**: the ends that have to be open are open, no other is, and the inlet is one. **wrong**: not so, and nobody is asked.
 **doubt**: the preparation stops with a question. **refused**: it fails. The choice is judged, not the cuts: an end that is chosen
@@ -111,12 +111,21 @@ def curves_text(curves):
     return "\n".join(f"{LIMITS[name]}:\n\n{curve_table(curve, getattr(PRESENT, name))}" for name, curve in curves.items())
 
 
-def page_text(results, ridges, curves):
+def coverage(results, orchard):
+    """How many of the orchard's cases were measured. orchard: the kinds of all its cases."""
+    parts = []
+    for name, test in (("as they are", lambda made: made == "as-is"), ("made", lambda made: made != "as-is")):
+        parts.append(f"{sum(test(r.case.made) for r in results)} of {sum(map(test, orchard))} {name}")
+    return " and ".join(parts) + ("" if len(results) == len(orchard) else ", those that are quickly measured first")
+
+
+def page_text(results, ridges, curves, orchard):
     real = [r for r in results if r.case.made == "as-is"]
     made = [r for r in results if r.case.made != "as-is"]
     kinds = [row_of(name, group) for name, group in by(made, lambda case: case.made).items()]
     return "\n".join([
-        INTRODUCTION.format(revision=page_rows.revision(), cases=len(results), patients=len({r.case.patient for r in results})),
+        INTRODUCTION.format(revision=page_rows.revision(), cases=len(results), patients=len({r.case.patient for r in results}),
+                            coverage=coverage(results, orchard)),
         f"## Surfaces and masks as they are\n\n{anatomy_table(real)}", f"## Made cases by anatomy\n\n{anatomy_table(made)}",
         "## Made cases by kind\n\n" + common.table(["made", *HEAD[1:]], kinds),
         f"## The inlet\n\n{inlets_table(results)}",

@@ -413,11 +413,17 @@ SCENARIO("A cut that would remove another vessel's end is refused", "[geometry][
                    Catch::Contains("4 mm wide, but the vessel is 1.5 mm wide"));
     }
     THEN("one where the wall lies inside out is") {
-        std::vector<Triangle> turned(tube.triangles().begin(), tube.triangles().end());
-        for (Triangle& t : turned) std::swap(t[0], t[1]);
-        const Surface inside_out = make_surface(tube.points(), turned);
-        CutTrials of_turned(inside_out, graph, ends, std::vector<double>(ends.size(), 0.0));
-        CHECK_THAT(of_turned.problem_of(place, upper), Catch::Contains("inside out"));
+        const Surface outer = open_tube(4.0, length, 40, 90);
+        Positions points = tube.points();
+        points.insert(points.end(), outer.points().begin(), outer.points().end());
+        std::vector<Triangle> triangles;
+        for (const auto& [a, b, c] : tube.triangles()) triangles.push_back({b, a, c});
+        const auto first = static_cast<VertexId>(tube.vertex_count());
+        for (const auto& [a, b, c] : outer.triangles())
+            triangles.push_back({first + a, first + b, first + c});
+        const Surface folded = make_surface(points, triangles);
+        CutTrials in_fold(folded, graph, ends, std::vector<double>(ends.size(), 0.0));
+        CHECK_THAT(in_fold.problem_of(place, upper), Catch::Contains("inside out"));
     }
 }
 

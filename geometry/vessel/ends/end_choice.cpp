@@ -63,25 +63,22 @@ void decide(EndVerdict& verdict) {
     verdict.doubtful = counts && odds < certain && odds > 1.0 / certain;
 }
 
-/// Ends behind a vessel with a share of the flow, none of which has such a share and is open: the
-/// likeliest one continues the vessel. If all are closed, the vessel may end there still: in doubt
-/// is whether any of them is an opening.
+/// Closed ends behind a vessel with a share of the flow: it may end there, or one of them continues
+/// it. If together they are likely enough to be openings, the likeliest is in doubt.
 void continue_vessel(const std::vector<EndVerdict*>& behind, double share) {
-    EndVerdict* likeliest = nullptr;
     double none = 1.0;
-    for (EndVerdict* verdict : behind) {
-        const bool carries = verdict->open && verdict->share > kLeastShare;
-        if (carries || verdict->doubtful || is_left_closed(*verdict)) return;
+    for (const EndVerdict* verdict : behind) {
+        if (verdict->open || verdict->doubtful || is_left_closed(*verdict)) return;
         none *= 1.0 - verdict->odds.opening;
-        if (!likeliest || verdict->odds.opening > likeliest->odds.opening) likeliest = verdict;
     }
-    const bool closed = std::ranges::none_of(behind, [](const EndVerdict* v) { return v->open; });
-    if (closed && !((1.0 - none) * end_limits().certain > none)) return;
+    if (!((1.0 - none) * end_limits().certain > none)) return;
+    EndVerdict* likeliest =
+        *std::ranges::max_element(behind, {}, [](const EndVerdict* v) { return v->odds.opening; });
     likeliest->share = std::max(likeliest->share, share);
-    likeliest->doubtful = closed;
+    likeliest->doubtful = true;
 }
 
-/// A wide vessel that splits into small tips at a frayed end must not end without being asked for.
+/// A wide vessel that splits into small tips, as a frayed end does, must not end unasked.
 void continue_vessels(EndChoice& choice) {
     const double reference = reference_of(choice);
     std::map<std::size_t, std::vector<EndVerdict*>> behind;  // by branch
@@ -114,6 +111,15 @@ void open_enough(EndChoice& choice) {
         verdict->open = verdict->doubtful = true;
         ++open;
     }
+}
+
+/// By its vessel, or by its rim or cap: a vessel may narrow towards its end, or be cut obliquely.
+bool is_wider(const InletCandidate& other, const InletCandidate& best) {
+    constexpr auto kClosure = static_cast<std::size_t>(
+        std::ranges::find(kInletFeatures, std::string_view("closure")) - kInletFeatures.begin());
+    const double limit = end_limits().wider_outlet;
+    return other.width > limit * best.width ||
+           std::exp(other.features[kClosure] - best.features[kClosure]) > limit;
 }
 
 }  // namespace
@@ -156,7 +162,7 @@ bool has_rival(const std::vector<EndVerdict>& ends, std::size_t inlet,
     for (std::size_t e = 0; e < ends.size(); ++e) {
         const auto& other = ends[e].inlet;
         if (e == inlet || !opened[e] || !other) continue;
-        if (other->width > end_limits().wider_outlet * best.width ||
+        if (is_wider(*other, best) ||
             (furcates && other->odds * end_limits().inlet_certain > best.odds))
             return true;
     }

@@ -51,9 +51,9 @@ struct EndChoice {
 };
 
 /// Opens the ends whose odds say so: likelier openings than not, small ones kLikely; at least two
-/// in any case. Closed ends beside two that were left open or named stay closed (kFewestCuts). A
-/// vessel that has a share of the flow and leads to small or closed ends alone gives its share to
-/// the likeliest of them.
+/// in any case. Closed ends beside two that were left open or named stay closed (kFewestCuts). If
+/// a vessel with a share of the flow leads to closed ends alone, the likeliest of them gets its
+/// share, and is in doubt unless all of them are surely closed.
 /// \param ends as from find_surface_ends
 /// \param stubs of the same lines
 /// \throw Cancelled

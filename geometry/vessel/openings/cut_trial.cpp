@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "geometry/kernel/measure.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
 #include "geometry/vessel/openings/opening_axis.h"
@@ -147,7 +148,7 @@ std::string CutTrials::problem_of(const OpeningPlace& place, std::size_t end) {
     const auto curve = cross_section_at(surface_, place.plane);
     if (!curve || !curve->closed || !encloses(*curve, place.plane, place.plane.point))
         return "there is no closed section";
-    if (!(curve->area > 0.0)) return "the wall lies inside out there";
+    if (curve->area <= 0.0 && volume(surface_) > 0.0) return "the wall lies inside out there";
     strip_.clear();
     for (const TriangleId t : curve->triangles) {
         if (surface_.patch_of(t).kind != PatchKind::Wall) return "a cut there would meet a cap";
