@@ -90,12 +90,12 @@ def inlet_rows(cases):
     return rows
 
 
-def fitted_inlets(rows, ridge):
-    """Gradient descent with Newton steps on the log-likelihood of any accepted candidate."""
+def fitted_inlets(rows, ridge, known=0.0):
+    """Gradient descent with Newton steps on the log-likelihood of any accepted candidate. known: where the ridge draws to."""
     k = rows[0][0].shape[1]
     weights, total = np.zeros(k), sum(w for _, _, w in rows)
     for _ in range(STEPS):
-        slope, curvature = ridge * weights, ridge * np.eye(k)
+        slope, curvature = ridge * (weights - known), ridge * np.eye(k)
         for x, good, w in rows:
             p = softmax(x @ weights)
             q = np.where(good, p, 0.0)
@@ -117,11 +117,11 @@ def inlet_loss(rows, weights):
 class Models:
     """Fitted to cases."""
 
-    def __init__(self, cases, ridges):
+    def __init__(self, cases, ridges, known=0.0):
         some = next(case for case in cases if any(e["odds"]["inlet"] for e in case.ends))
         self.names = {part: names_of(some.ends, part) for part in ("ends", "inlets")}
         self.ends = fitted_ends(end_rows(cases), ridges["ends"])
-        self.inlets = fitted_inlets(inlet_rows(cases), ridges["inlets"])
+        self.inlets = fitted_inlets(inlet_rows(cases), ridges["inlets"], known)
 
     def end_odds(self, case):
         """Likelihoods of the classes, #candidates x 3."""
@@ -140,6 +140,13 @@ class Models:
             return "\n".join(rows) + "\n"
         return {"end_weights.csv": text(self.names["ends"], self.ends, CLASSES),
                 "inlet_weights.csv": text(self.names["inlets"], self.inlets, ("inlet",))}
+
+
+def present_inlets(file):
+    """The weights of a table that `tables` wrote."""
+    with open(file) as table:
+        rows = [line.split(",") for line in table if line[0] != "#"][1:]
+    return np.array([float(row[1]) for row in rows])
 
 
 def best_ridges(cases, folds, taught):

@@ -565,6 +565,24 @@ SCENARIO("A model whose flow would be missing is a failure", "[geometry][opening
             CHECK(why_no_flow(plan_with(other)).empty());
         }
     }
+    GIVEN("a thin tip that could not be cut, behind a vessel half as wide as the inlet") {
+        other.verdict = verdict_of(0.7, 0.01);
+        other.verdict->through = {{.branch = 7, .diameter = 2.0}};
+        other.tried = true;
+        OpeningPlan plan = plan_with(other);
+        plan.inlets = {0};
+        plan.ends[1].verdict->profile.diameter = 4.0;
+        plan.ends[1].verdict->inlet = InletCandidate{};
+        CHECK_THAT(why_no_flow(plan), Contains("(1, 2, 3) mm") && Contains("form a loop"));
+        THEN("it is none if another end of that vessel is open") {
+            plan.ends[2].verdict->through = other.verdict->through;
+            CHECK(why_no_flow(plan).empty());
+        }
+        THEN("it is none if the vessel is thin as well") {
+            plan.ends[0].verdict->through[0].diameter = 1.0;
+            CHECK(why_no_flow(plan).empty());
+        }
+    }
     GIVEN("an end that is certain to be a sac, however wide") {
         other.verdict = verdict_of(0.1, 1.0);
         CHECK(why_no_flow(plan_with(other)).empty());
