@@ -173,38 +173,6 @@ SCENARIO("The vessels that lead to an end are known", "[geometry][ends]") {
     CHECK(vessels_from(graph, 4)[2].size() == 1);
 }
 
-SCENARIO("A wide vessel does not end in small tips without being asked about", "[geometry][ends]") {
-    const std::vector<PhantomPart> parts = {
-        {.name = "trunk",
-         .shape = VesselShape{.points = {Vec3(0, 0, -24), Vec3(0, 0, 24)},
-                              .radii = {3.0, 3.0},
-                              .flat_ends = true}},
-        {.name = "branch",
-         .shape =
-             VesselShape{
-                 .points = {Vec3::Zero(), Vec3(20, 0, 0)}, .radii = {2.0, 2.0}, .flat_ends = true},
-         .blend = 0.3},
-        {.name = "left",
-         .shape = VesselShape{.points = {Vec3(0, 0, 23), Vec3(-2, 0, 26)}, .radii = {1.0, 1.0}}},
-        {.name = "right",
-         .shape = VesselShape{.points = {Vec3(0, 0, 23), Vec3(2, 0, 26)}, .radii = {1.0, 1.0}}}};
-    const PhantomField field(parts);
-    const Surface surface = exact_surface(field, field.bounds(), 0.5);
-    const CenterlineGraph graph = split_trunk();
-    const EndChoice choice =
-        choose_ends({.surface = surface, .graph = graph}, find_surface_ends(surface, graph), {});
-    int tips = 0;
-    bool carried = false;
-    for (const EndVerdict& verdict : choice.ends) {
-        if (verdict.through.empty()) continue;
-        ++tips;
-        CAPTURE(verdict.odds.opening, verdict.share, verdict.open, verdict.doubtful);
-        carried = carried || (verdict.share > kLeastShare && (verdict.open || verdict.doubtful));
-    }
-    CHECK(tips == 2);
-    CHECK(carried);
-}
-
 SCENARIO("A rim to which no line leads is no likelier inlet for it", "[geometry][ends]") {
     const Surface whole = forked_vessel(1.4, 1.1);
     const Vec3 hole(kTrunk, 0, -9);
