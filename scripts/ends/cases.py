@@ -116,6 +116,15 @@ def measured_cases(options):
         return [case for case in pool.map(one, folders) if case and not case.truth.get("acceptable_refusal")]
 
 
+def made_kinds(options):
+    """How each case of the orchard was made."""
+    truths = []
+    for file in glob.glob(os.path.join(options.orchard, "*", "truth.json")):
+        with open(file) as text:
+            truths.append(json.load(text))
+    return [truth["made"] for truth in truths if not truth.get("acceptable_refusal")]
+
+
 def taught_cases(options):
     """The synthetic cases of ../shared/data/ends and the bundled aneurysm: for the fit only."""
     ends = os.path.join(common.DATA, "ends")

@@ -1,10 +1,30 @@
 """The program's choice (geometry/vessel/ends/end_choice.cpp) by given models, and whether it is right."""
+import csv
 import dataclasses
 import math
+import os
+
+from common import ROOT
 
 # As in end_choice.h and end_choice.cpp.
-LEAST_SHARE, CERTAIN, LIKELY, FEWEST_CUTS, FEWEST_OPENINGS = 0.05, 4.0, 2.0, 2, 2
-INLET_CERTAIN, WIDER_OUTLET = 1.2, 1.1
+LEAST_SHARE, LIKELY, FEWEST_CUTS, FEWEST_OPENINGS = 0.05, 2.0, 2, 2
+
+
+@dataclasses.dataclass
+class Limits:
+    """Where doubt ends: EndLimits of end_choice.h."""
+    certain: float
+    inlet_certain: float
+    wider_outlet: float
+
+
+def present_limits():
+    with open(os.path.join(ROOT, "geometry", "vessel", "ends", "end_limits.csv")) as table:
+        rows = csv.reader(line for line in table if line[0] != "#")
+        return Limits(**{name: float(value) for name, value in list(rows)[1:]})
+
+
+PRESENT = present_limits()
 
 
 @dataclasses.dataclass
@@ -18,6 +38,11 @@ class Result:
     inlet: tuple     # (likelihood of the one that is taken, whether it is accepted), or None
     asked_inlet: bool = False
     widest_accepted: bool | None = None  # whether the widest open end is an inlet; None: all or none of them are
+
+
+# What the page shows of each limit beside the others as they are.
+TRIED = {"certain": (1.5, 2.0, 3.0, 4.0, 6.0, 9.0, 15.0), "inlet_certain": (1.0, 1.2, 1.5, 2.0, 3.0, 5.0, 9.0),
+         "wider_outlet": (1.0, 1.05, 1.1, 1.2, 1.4, 2.0)}
 
 
 def is_cut(end):
@@ -34,9 +59,10 @@ def grazes(end):
     return "in the side of a vessel" in end["why"]
 
 
-def width(end):
-    """Beside that of the widest candidate."""
-    return math.exp(end["odds"]["inlet"]["features"]["width"])
+def is_wider(end, other, limit):
+    """By its vessel, or by its rim or cap."""
+    these, those = end["odds"]["inlet"]["features"], other["odds"]["inlet"]["features"]
+    return any(math.exp(these[name] - those[name]) > limit for name in ("width", "closure"))
 
 
 def ratio(p):
@@ -46,8 +72,9 @@ def ratio(p):
 class Choice:
     """Of one case: open and doubtful candidates, and the inlet."""
 
-    def __init__(self, case, models):
+    def __init__(self, case, models, limits):
         ends = case.ends
+        self.limits = limits
         odds = models.end_odds(case)
         self.opening = [0.0 if is_left_closed(e) or grazes(e) else p[0] for e, p in zip(ends, odds)]
         self.plain = [p[0] for p in odds]
@@ -57,10 +84,10 @@ class Choice:
             p = models.inlet_odds(case, candidates)
             self.by_inlet = sorted(zip(p, candidates), reverse=True)
             self.inlet_odds, self.inlet = self.by_inlet[0]
-            wider = WIDER_OUTLET * width(ends[self.inlet])
             furcates = len(candidates) > 2
-            self.inlet_doubtful = any(furcates and p * INLET_CERTAIN > self.inlet_odds or width(ends[j]) > wider
-                                      for p, j in self.by_inlet[1:])
+            inlet = ends[self.inlet]
+            self.inlet_doubtful = any(furcates and p * limits.inlet_certain > self.inlet_odds or
+                                      is_wider(ends[j], inlet, limits.wider_outlet) for p, j in self.by_inlet[1:])
         self.decide(ends)
 
     def decide(self, ends):
@@ -75,15 +102,37 @@ class Choice:
                 self.doubtful.append(False)
             elif is_left_closed(end):
                 self.open.append(False)
-                self.doubtful.append(counts and odds >= CERTAIN)
+                self.doubtful.append(counts and odds >= self.limits.certain)
             else:
                 self.open.append(odds >= (1.0 if counts else LIKELY))
-                self.doubtful.append(counts and 1.0 / CERTAIN < odds < CERTAIN)
+                self.doubtful.append(counts and 1.0 / self.limits.certain < odds < self.limits.certain)
+        self.continue_vessels(ends, reference)
         for j in sorted(range(len(ends)), key=lambda j: -self.plain[j]):
             if sum(self.open) >= FEWEST_OPENINGS:
                 break
             if not self.open[j]:
                 self.open[j] = self.doubtful[j] = True
+
+
+    def continue_vessels(self, ends, reference):
+        behind = {}
+        for j, end in enumerate(ends):
+            for vessel in end["odds"].get("through", []) if j != self.inlet else []:
+                behind.setdefault(vessel["vessel"], (vessel["diameter_mm"], []))[1].append(j)
+        for diameter, those in sorted(behind.values(), key=lambda of_vessel: len(of_vessel[1])):
+            share = min(1.0, (diameter / reference) ** 3) if reference > 0 else 0.0
+            if share > LEAST_SHARE:
+                self.continue_vessel(ends, those, share)
+
+    def continue_vessel(self, ends, behind, share):
+        """See end_choice.cpp."""
+        if any(self.open[j] or self.doubtful[j] or is_left_closed(ends[j]) for j in behind):
+            return
+        none = math.prod(1.0 - self.plain[j] for j in behind)
+        if (1.0 - none) * self.limits.certain > none:
+            likeliest = max(behind, key=lambda j: self.plain[j])
+            self.share[likeliest] = max(self.share[likeliest], share)
+            self.doubtful[likeliest] = True
 
 
 def faults(case, choice):
@@ -131,10 +180,10 @@ def widest_accepted(case):
     return max(roles)[1] if len({inlet for _, inlet in roles}) == 2 else None
 
 
-def result_of(case, models):
+def result_of(case, models, limits=PRESENT):
     if not case.ends:
         return Result(case, "refused", False, [case.error[:120]], [], None)
-    choice = Choice(case, models)
+    choice = Choice(case, models, limits)
     widest = widest_accepted(case)
     why = faults(case, choice)
     known = [(p, label) for p, label in zip(choice.plain, case.labels) if label is not None]
@@ -144,3 +193,14 @@ def result_of(case, models):
     if any(choice.doubtful) or choice.inlet_doubtful:
         return Result(case, "doubt", bool(why), why, known, inlet, choice.inlet_doubtful, widest)
     return Result(case, "wrong" if why else "right", False, why, known, inlet, False, widest)
+
+
+def results_of(judged, limits=PRESENT):
+    """\param judged: each case with models that did not see its patient"""
+    return [result_of(case, models, limits) for case, models in judged]
+
+
+def curves(judged):
+    """By limit: (value, results) of each value that is tried, the other limits as they are."""
+    return {name: [(value, results_of(judged, dataclasses.replace(PRESENT, **{name: value}))) for value in values]
+            for name, values in TRIED.items()}

@@ -9,8 +9,6 @@ except ImportError:
 CLASSES = ("opening", "sac", "bump")
 RIDGES = (1e-2, 3e-3, 1e-3, 3e-4, 1e-4)
 LEAST_SHARE, SMALL_WEIGHT = 0.05, 0.3  # kLeastShare of end_choice.h; and the weight of an end with less
-# Patients have fewer dilated outlets than the orchard, whose dilations make necks that no vessel has.
-NOT_WIDEST = 0.1
 KNOWN = 64.0  # the bundled aneurysm, whose widest end is its sac: nobody shall be asked about the first example
 STEPS = 60
 
@@ -27,8 +25,7 @@ def case_weights(cases):
     for case in cases:
         anatomies[case.anatomy] = anatomies.get(case.anatomy, 0) + 1
         patients[case.patient] = patients.get(case.patient, 0) + 1
-    counts = {"not-widest": NOT_WIDEST, "known": KNOWN}
-    return {case.name: counts.get(case.made, 1.0) / math.sqrt(anatomies[case.anatomy] * patients[case.patient])
+    return {case.name: (KNOWN if case.made == "known" else 1.0) / math.sqrt(anatomies[case.anatomy] * patients[case.patient])
             for case in cases}
 
 
@@ -93,12 +90,12 @@ def inlet_rows(cases):
     return rows
 
 
-def fitted_inlets(rows, ridge):
-    """Gradient descent with Newton steps on the log-likelihood of any accepted candidate."""
+def fitted_inlets(rows, ridge, known=0.0):
+    """Gradient descent with Newton steps on the log-likelihood of any accepted candidate. known: where the ridge draws to."""
     k = rows[0][0].shape[1]
     weights, total = np.zeros(k), sum(w for _, _, w in rows)
     for _ in range(STEPS):
-        slope, curvature = ridge * weights, ridge * np.eye(k)
+        slope, curvature = ridge * (weights - known), ridge * np.eye(k)
         for x, good, w in rows:
             p = softmax(x @ weights)
             q = np.where(good, p, 0.0)
@@ -120,11 +117,11 @@ def inlet_loss(rows, weights):
 class Models:
     """Fitted to cases."""
 
-    def __init__(self, cases, ridges):
+    def __init__(self, cases, ridges, known=0.0):
         some = next(case for case in cases if any(e["odds"]["inlet"] for e in case.ends))
         self.names = {part: names_of(some.ends, part) for part in ("ends", "inlets")}
         self.ends = fitted_ends(end_rows(cases), ridges["ends"])
-        self.inlets = fitted_inlets(inlet_rows(cases), ridges["inlets"])
+        self.inlets = fitted_inlets(inlet_rows(cases), ridges["inlets"], known)
 
     def end_odds(self, case):
         """Likelihoods of the classes, #candidates x 3."""
@@ -143,6 +140,13 @@ class Models:
             return "\n".join(rows) + "\n"
         return {"end_weights.csv": text(self.names["ends"], self.ends, CLASSES),
                 "inlet_weights.csv": text(self.names["inlets"], self.inlets, ("inlet",))}
+
+
+def present_inlets(file):
+    """The weights of a table that `tables` wrote."""
+    with open(file) as table:
+        rows = [line.split(",") for line in table if line[0] != "#"][1:]
+    return np.array([float(row[1]) for row in rows])
 
 
 def best_ridges(cases, folds, taught):

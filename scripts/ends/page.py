@@ -1,6 +1,7 @@
 """The figures of the fit, of patients that it did not see, as Markdown."""
 import common
 import page_rows
+from ends.choice import PRESENT
 
 KINDS = ("right", "wrong", "doubt", "refused")
 BINS = ((0.0, 0.02), (0.02, 0.05), (0.05, 0.2), (0.2, 0.5), (0.5, 0.8), (0.8, 0.9), (0.9, 0.95), (0.95, 0.98), (0.98, 1.01))
@@ -59,7 +60,7 @@ makes the cases from labelled vessels: as they are, closed by flat, domed, ragge
 and images of several resolutions, cut by the image's border, with stubs of cut branches, in other units, decimated, noisy,
 turned, and with an inlet that is not the widest end. `scripts/fit_ends.py --page docs/science/ends.md` writes this page. The
 patients are dealt to five folds; each case is judged by weights that were fitted without its patient. Made at {revision};
-{cases} cases of {patients} patients.
+{cases} cases of {patients} patients: of the orchard, {coverage}.
 
 **right**: the ends that have to be open are open, no other is, and the inlet is one. **wrong**: not so, and nobody is asked.
 **doubt**: the preparation stops with a question. **refused**: it fails. The choice is judged, not the cuts: an end that is chosen
@@ -81,16 +82,56 @@ def inlets_table(results):
                          "wrong inlet, nobody asked"], rows)
 
 
-def page_text(results, ridges):
+def groups_of(results):
+    """As they are; made; made with an inlet that is not the widest end."""
+    def part(test):
+        return [r for r in results if test(r.case.made)]
+    return [part(lambda made: made == "as-is"), part(lambda made: made not in ("as-is", "not-widest")),
+            part(lambda made: made == "not-widest")]
+
+
+LIMITS = {"certain": "Odds of an end beyond which it is no doubt", "inlet_certain":
+          "Odds of the inlet over the next end's beyond which it is no doubt", "wider_outlet":
+          "Width of an outlet beside the inlet's from which it is a doubt"}
+
+
+def curve_table(curve, present):
+    """Wrong and doubt against one limit."""
+    rows = []
+    for value, results in curve:
+        cells = [f"**{value:g}**" if value == present else f"{value:g}"]
+        for group in groups_of(results):
+            cells += [percent(sum(r.verdict == kind for r in group), len(group)) for kind in ("right", "wrong", "doubt")]
+        rows.append(cells)
+    names = ("as they are", "made", "not the widest")
+    return common.table(["limit", *(f"{name}: {kind}" for name in names for kind in ("right", "wrong", "doubt"))], rows)
+
+
+def curves_text(curves):
+    return "\n".join(f"{LIMITS[name]}:\n\n{curve_table(curve, getattr(PRESENT, name))}" for name, curve in curves.items())
+
+
+def coverage(results, orchard):
+    """How many of the orchard's cases were measured. orchard: the kinds of all its cases."""
+    parts = []
+    for name, test in (("as they are", lambda made: made == "as-is"), ("made", lambda made: made != "as-is")):
+        parts.append(f"{sum(test(r.case.made) for r in results)} of {sum(map(test, orchard))} {name}")
+    return " and ".join(parts) + ("" if len(results) == len(orchard) else ", those that are quickly measured first")
+
+
+def page_text(results, ridges, curves, orchard):
     real = [r for r in results if r.case.made == "as-is"]
     made = [r for r in results if r.case.made != "as-is"]
     kinds = [row_of(name, group) for name, group in by(made, lambda case: case.made).items()]
     return "\n".join([
-        INTRODUCTION.format(revision=page_rows.revision(), cases=len(results), patients=len({r.case.patient for r in results})),
+        INTRODUCTION.format(revision=page_rows.revision(), cases=len(results), patients=len({r.case.patient for r in results}),
+                            coverage=coverage(results, orchard)),
         f"## Surfaces and masks as they are\n\n{anatomy_table(real)}", f"## Made cases by anatomy\n\n{anatomy_table(made)}",
         "## Made cases by kind\n\n" + common.table(["made", *HEAD[1:]], kinds),
         f"## The inlet\n\n{inlets_table(results)}",
         f"## Odds\n\nWhat is said of a candidate, and what is so.\n\n{reliability_table(results)}",
+        "## Where doubt ends\n\nWrong with exit 0 against doubt, by each limit alone; the one that is used is bold.\n\n" +
+        curves_text(curves),
         f"Ridges: {ridges['ends']:g} for the ends, {ridges['inlets']:g} for the inlet."]) + "\n"
 
 

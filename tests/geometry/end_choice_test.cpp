@@ -536,7 +536,8 @@ EndVerdict verdict_of(double opening, double share) {
     EndVerdict verdict{.odds = {opening, 1.0 - opening, 0.0}, .share = share};
     const double odds = verdict.odds.for_opening();
     verdict.open = odds >= 1.0;
-    verdict.doubtful = share > kLeastShare && odds < kCertain && odds > 1.0 / kCertain;
+    verdict.doubtful =
+        share > kLeastShare && odds < end_limits().certain && odds > 1.0 / end_limits().certain;
     return verdict;
 }
 
@@ -562,6 +563,24 @@ SCENARIO("A model whose flow would be missing is a failure", "[geometry][opening
             other.asked = false;
             other.verdict = verdict_of(0.9, 0.04);
             CHECK(why_no_flow(plan_with(other)).empty());
+        }
+    }
+    GIVEN("a thin tip that could not be cut, behind a vessel half as wide as the inlet") {
+        other.verdict = verdict_of(0.7, 0.01);
+        other.verdict->through = {{.branch = 7, .diameter = 2.0}};
+        other.tried = true;
+        OpeningPlan plan = plan_with(other);
+        plan.inlets = {0};
+        plan.ends[1].verdict->profile.diameter = 4.0;
+        plan.ends[1].verdict->inlet = InletCandidate{};
+        CHECK_THAT(why_no_flow(plan), Contains("(1, 2, 3) mm") && Contains("form a loop"));
+        THEN("it is none if another end of that vessel is open") {
+            plan.ends[2].verdict->through = other.verdict->through;
+            CHECK(why_no_flow(plan).empty());
+        }
+        THEN("it is none if the vessel is thin as well") {
+            plan.ends[0].verdict->through[0].diameter = 1.0;
+            CHECK(why_no_flow(plan).empty());
         }
     }
     GIVEN("an end that is certain to be a sac, however wide") {

@@ -130,3 +130,68 @@ SCENARIO("What is closed beside two open rims is opened only where somebody asks
     CHECK(at_tip(plan).verdict->profile.cuts_beside == 2);
     CHECK(plan_openings(open, *graph, {.open = {tip}}).openings.size() == 3);
 }
+
+namespace {
+
+/// A line along a path, of one radius [mm].
+CenterlineBranch line(std::size_t from, std::size_t to, const Vec3& start, const Vec3& end,
+                      double radius) {
+    CenterlineBranch branch{.start_node = from, .end_node = to, .points = {}, .radii = {}};
+    for (int i = 0; i <= 40; ++i) {
+        branch.points.push_back(start + (end - start) * i / 40.0);
+        branch.radii.push_back(radius);
+    }
+    return branch;
+}
+
+/// A trunk along z that gives off a branch, and splits at z = 24 into two short tips.
+CenterlineGraph split_trunk() {
+    const Vec3 root(0, 0, -24), side(20, 0, 0), middle = Vec3::Zero(), split(0, 0, 24);
+    const Vec3 left(-2, 0, 27), right(2, 0, 27);
+    return {.nodes = {{root, 3.0, {0}},
+                      {middle, 3.0, {0, 1, 2}},
+                      {side, 2.0, {1}},
+                      {split, 3.0, {2, 3, 4}},
+                      {left, 1.0, {3}},
+                      {right, 1.0, {4}}},
+            .branches = {line(0, 1, root, middle, 3.0), line(1, 2, middle, side, 2.0),
+                         line(1, 3, middle, split, 3.0), line(3, 4, split, left, 1.0),
+                         line(3, 5, split, right, 1.0)}};
+}
+
+}  // namespace
+
+SCENARIO("The vessels that lead to an end are known", "[geometry][ends]") {
+    const CenterlineGraph graph = split_trunk();
+    const auto from_root = vessels_from(graph, 0);
+    REQUIRE(from_root[4].size() == 1);
+    CHECK(from_root[4][0].branch == 2);
+    CHECK(from_root[4][0].diameter == Approx(6.0));
+    CHECK(from_root[5].size() == 1);
+    CHECK(from_root[2].empty());
+    CHECK(vessels_from(graph, 4)[5].empty());
+    CHECK(vessels_from(graph, 4)[2].size() == 1);
+}
+
+SCENARIO("A rim to which no line leads is no likelier inlet for it", "[geometry][ends]") {
+    const Surface whole = forked_vessel(1.4, 1.1);
+    const Vec3 hole(kTrunk, 0, -9);
+    std::vector<bool> keep;
+    for (const Triangle& t : whole.triangles())
+        keep.push_back((whole.points()[t[0]] - hole).norm() > 1.2);
+    const Surface surface = select_triangles(whole, keep);
+    const auto graph = centerlines_of(whole);
+    const std::vector<SurfaceEnd> ends = find_surface_ends(surface, *graph);
+    const EndChoice choice = choose_ends({.surface = surface, .graph = *graph}, ends, {});
+    double least = 1e9, without_line = -1.0;
+    for (std::size_t e = 0; e < ends.size(); ++e) {
+        if (!choice.ends[e].inlet) continue;
+        const double murray = choice.ends[e].inlet->features[0];
+        if (ends[e].tip)
+            least = std::min(least, murray);
+        else
+            without_line = murray;
+    }
+    REQUIRE(without_line >= 0.0);
+    CHECK(without_line > least);
+}

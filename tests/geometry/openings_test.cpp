@@ -407,6 +407,24 @@ SCENARIO("A cut that would remove another vessel's end is refused", "[geometry][
         place.plane.point.z() = 25.3;
         CHECK_THAT(trials.problem_of(place, upper), Catch::Contains("another opening"));
     }
+    THEN("one that is much wider than the end's own vessel is") {
+        CutTrials of_branch(tube, graph, ends, {1.5, 1.5});
+        CHECK_THAT(of_branch.problem_of(place, upper),
+                   Catch::Contains("4 mm wide, but the vessel is 1.5 mm wide"));
+    }
+    THEN("one where the wall lies inside out is") {
+        const Surface outer = open_tube(4.0, length, 40, 90);
+        Positions points = tube.points();
+        points.insert(points.end(), outer.points().begin(), outer.points().end());
+        std::vector<Triangle> triangles;
+        for (const auto& [a, b, c] : tube.triangles()) triangles.push_back({b, a, c});
+        const auto first = static_cast<VertexId>(tube.vertex_count());
+        for (const auto& [a, b, c] : outer.triangles())
+            triangles.push_back({first + a, first + b, first + c});
+        const Surface folded = make_surface(points, triangles);
+        CutTrials in_fold(folded, graph, ends, std::vector<double>(ends.size(), 0.0));
+        CHECK_THAT(in_fold.problem_of(place, upper), Catch::Contains("inside out"));
+    }
 }
 
 SCENARIO("Cutting fails with a clear text where it cannot be done", "[geometry][openings]") {

@@ -59,8 +59,8 @@ void measure_line(const EndScene& scene, const std::vector<double>& courses, std
     profile.diameter = median(diameters);
     profile.widest = *std::ranges::max_element(diameters);
     const std::span<const double> all(diameters);
-    const double inner = mean(all.first(kSamples / 3));
-    profile.taper = inner > 0.0 ? mean(all.last(kSamples / 3)) / inner : 1.0;
+    profile.inner = mean(all.first(kSamples / 3));
+    profile.taper = profile.inner > 0.0 ? mean(all.last(kSamples / 3)) / profile.inner : 1.0;
     profile.straight = -1.0;
     for (const std::size_t other : graph.nodes[root].branches)
         if (other != index) {
@@ -69,6 +69,7 @@ void measure_line(const EndScene& scene, const std::vector<double>& courses, std
                 profile.straight,
                 -direction_from(graph, other, root).dot(direction_from(graph, index, root)));
         }
+    if (!(profile.parent > 0.0)) profile.inner = profile.diameter;  // that of both ends
     profile.tree = widest_course(courses, index);
     if (profile.parent > 0.0 && profile.length < kLongestNecked * profile.diameter)
         profile.neck = std::max(profile.neck, section_rise(scene.surface, graph, tip));
@@ -106,12 +107,22 @@ void add_others(const CenterlineGraph& graph, const std::vector<double>& courses
     for (int side = 0; side < 2; ++side) profile.add_other(courses[line->place.branch]);
 }
 
+/// Of the circle with the area of an open border, or of a cap [mm]; 0: there is none.
+double closure_width(const Surface& surface, const SurfaceEnd& end) {
+    if (end.patch) return end.closure;
+    Vec3 area = Vec3::Zero();
+    for (std::size_t i = 0; i < end.rim.size(); ++i)
+        area += 0.5 * (surface.points()[end.rim[i]] - end.centre)
+                          .cross(surface.points()[end.rim[(i + 1) % end.rim.size()]] - end.centre);
+    return 2.0 * std::sqrt(area.norm() / std::numbers::pi);
+}
+
 /// A rim or cap where no line ends is a hole or a label in the side of the vessel that passes.
-void measure_lineless(const CenterlineGraph& graph, const std::vector<double>& courses,
+void measure_lineless(const EndScene& scene, const std::vector<double>& courses,
                       const SurfaceEnd& end, EndProfile& profile) {
-    profile.diameter = profile.widest = end.diameter;
+    profile.diameter = profile.widest = profile.inner = closure_width(scene.surface, end);
     profile.tree = widest_course(courses, courses.size());
-    const auto line = nearest_place(graph, end.centre);
+    const auto line = nearest_place(scene.graph, end.centre);
     for (int side = 0; line && side < 2; ++side) profile.add_other(courses[line->place.branch]);
 }
 
@@ -148,16 +159,6 @@ EndKind kind_of(const EndScene& scene, const SurfaceEnd& end) {
     return border ? EndKind::Border : EndKind::Face;
 }
 
-/// Of the circle with the area of an open border, or of a cap [mm]; 0: there is none.
-double closure_width(const Surface& surface, const SurfaceEnd& end) {
-    if (end.patch) return end.closure;
-    Vec3 area = Vec3::Zero();
-    for (std::size_t i = 0; i < end.rim.size(); ++i)
-        area += 0.5 * (surface.points()[end.rim[i]] - end.centre)
-                          .cross(surface.points()[end.rim[(i + 1) % end.rim.size()]] - end.centre);
-    return 2.0 * std::sqrt(area.norm() / std::numbers::pi);
-}
-
 /// The line may end in a corner of an oblique or blunt closure, where it is narrow.
 void measure_closure(const Surface& surface, const SurfaceEnd& end, EndProfile& profile) {
     profile.closure = closure_width(surface, end);
@@ -176,7 +177,7 @@ EndProfile end_profile(const EndScene& scene, const std::vector<double>& courses
     if (end.tip)
         measure_line(scene, courses, *end.tip, profile);
     else
-        measure_lineless(scene.graph, courses, end, profile);
+        measure_lineless(scene, courses, end, profile);
     measure_closure(scene.surface, end, profile);
     return profile;
 }

@@ -34,6 +34,7 @@ enum class EndKind {
 struct EndProfile {
     double length = 0.0;    ///< of its own vessel, beyond its parent's inscribed spheres [mm]
     double diameter = 0.0;  ///< median along that length [mm]
+    double inner = 0.0;     ///< mean along its third next to its parent [mm]; else `diameter`
     double widest = 0.0;    ///< along that length [mm]
     double neck = 1.0;      ///< a section's diameter over a smaller one nearer to the parent [-]
     double taper = 1.0;     ///< mean diameter of the outer third over that of the inner third [-]

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "geometry/kernel/shortest_paths.h"
@@ -50,6 +51,29 @@ Vec3 direction_from(const CenterlineGraph& graph, std::size_t branch, std::size_
     const double whole = branch_length(graph.branches[branch]);
     const double from = std::min(zone, 0.5 * whole);
     return (at(std::min(whole, from + reach)) - at(from)).stableNormalized();
+}
+
+std::vector<std::vector<SharedVessel>> vessels_from(const CenterlineGraph& graph, std::size_t tip) {
+    std::vector<double> lengths;
+    for (const CenterlineBranch& branch : graph.branches) lengths.push_back(branch_length(branch));
+    const std::vector<double> distance = distances_from(graph, tip, lengths);
+    const std::vector<double> courses = course_diameters(graph);
+    std::vector<std::size_t> order(graph.nodes.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, {}, [&](std::size_t n) { return distance[n]; });
+    std::vector<std::vector<SharedVessel>> leading(graph.nodes.size());
+    for (const std::size_t n : order) {
+        if (!std::isfinite(distance[n])) break;
+        for (const std::size_t b : graph.nodes[n].branches) {
+            const std::size_t before = other_node(graph, b, n);
+            if (before == n || distance[before] + lengths[b] != distance[n]) continue;
+            leading[n] = leading[before];
+            if (!graph.nodes[n].is_tip() && !graph.nodes[before].is_tip())
+                leading[n].insert(leading[n].begin(), {b, courses[b]});
+            break;
+        }
+    }
+    return leading;
 }
 
 std::vector<double> course_diameters(const CenterlineGraph& graph) {

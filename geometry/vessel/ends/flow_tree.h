@@ -27,6 +27,17 @@ struct RootFigures {
     double turn = 0.0;
 };
 
+/// A vessel between two furcations, which all ends behind it share.
+struct SharedVessel {
+    std::size_t branch = 0;
+    double diameter = 0.0;  ///< along its course [mm]
+};
+
+/// The vessels between furcations that lead from a tip to each node along the shortest ways,
+/// #nodes, the one next to the node first. Those that end at a tip are none.
+[[nodiscard]] std::vector<std::vector<SharedVessel>> vessels_from(const CenterlineGraph& graph,
+                                                                  std::size_t tip);
+
 /// A tree whose root is looked for.
 class FlowTree {
 public:

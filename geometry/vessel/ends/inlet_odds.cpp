@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "geometry/kernel/statistics.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
@@ -33,9 +34,22 @@ std::vector<double> flowing(const CenterlineGraph& graph, const std::vector<Surf
     return diameters;
 }
 
+/// The same by the widths next to the furcations: an end may be dilated, or cut in a narrowing.
+std::vector<double> flowing_inside(std::vector<double> flowing, const CenterlineGraph& graph,
+                                   const std::vector<SurfaceEnd>& ends,
+                                   const std::vector<EndProfile>& profiles) {
+    for (std::size_t e = 0; e < ends.size(); ++e) {
+        if (!ends[e].tip) continue;
+        double& diameter = flowing[branch_of_tip(graph, *ends[e].tip)];
+        if (diameter > 0.0) diameter = profiles[e].inner;
+    }
+    return flowing;
+}
+
 /// A trunk may end in a spike, or its course lead through a bend that is narrower than its end.
 /// Both ends of a vessel without furcations have its course in common.
 double width_of(const SurfaceEnd& end, const EndProfile& profile) {
+    if (!end.tip) return profile.diameter;  // a torn rim is longer than it is wide
     return profile.parent > 0.0 ? std::max(profile.diameter, end.diameter) : end.diameter;
 }
 
@@ -51,18 +65,22 @@ public:
         : ends_(ends),
           profiles_(profiles),
           opening_(opening),
-          tree_(scene.graph, flowing(scene.graph, ends, profiles, opening)) {
+          tree_(scene.graph, flowing(scene.graph, ends, profiles, opening)),
+          inside_(scene.graph, flowing_inside(flowing(scene.graph, ends, profiles, opening),
+                                              scene.graph, ends, profiles)) {
         for (std::size_t e = 0; e < ends.size(); ++e) {
             if (opening[e] < kLeastOpening) continue;
             open_.push_back(e);
             widest_ = std::max(widest_, width_of(ends[e], profiles[e]));
             closure_ = std::max(closure_, closure_of(ends[e], profiles[e]));
             course_ = std::max(course_, profiles[e].diameter);
+            inner_ = std::max(inner_, profiles[e].inner);
             middle_ += ends[e].centre;
         }
         middle_ /= static_cast<double>(std::max<std::size_t>(1, open_.size()));
         for (const std::size_t e : open_)
             reach_ = std::max(reach_, (ends[e].centre - middle_).norm());
+        set_roots();
     }
 
     [[nodiscard]] const std::vector<std::size_t>& open() const { return open_; }
@@ -70,15 +88,15 @@ public:
     [[nodiscard]] InletFeatures features(std::size_t e) const {
         const SurfaceEnd& end = ends_[e];
         const double width = width_of(end, profiles_[e]);
-        const RootFigures root = end.tip ? tree_.figures(*end.tip) : RootFigures{};
         double others = 0.0;
         for (const std::size_t other : open_)
             if (other != e) others += std::log(width / width_of(ends_[other], profiles_[other]));
         if (open_.size() > 1) others /= static_cast<double>(open_.size() - 1);
         const double height = reach_ > 0.0 ? (end.centre - middle_).z() / reach_ : 0.0;
         const double size = std::clamp(std::log(widest_ / kWideVessel), -1.0, 1.0);
-        return {root.murray,
-                root.turn,
+        const Root& root = roots_.at(e);
+        return {root.whole.murray,
+                root.whole.turn,
                 std::log(width / widest_),
                 std::log(closure_of(end, profiles_[e]) / closure_),
                 std::log(std::max(profiles_[e].diameter, 1e-6) / course_),
@@ -87,16 +105,39 @@ public:
                 height,
                 size > 0.0 ? height : 0.0,
                 height * size,
-                std::log(opening_[e] / (1.0 - opening_[e] + 1e-6))};
+                std::log(opening_[e] / (1.0 - opening_[e] + 1e-6)),
+                std::log(std::max(profiles_[e].inner, 1e-6) / inner_),
+                root.inside_murray,
+                std::log(closure_of(end, profiles_[e]) / std::max(profiles_[e].inner, 1e-6))};
     }
 
 private:
+    struct Root {
+        RootFigures whole;
+        double inside_murray = 0.0;
+    };
+
+    /// An end in a vessel's side, to which no line leads, is as little a root as the worst one.
+    void set_roots() {
+        Root worst;
+        for (const std::size_t e : open_) {
+            if (!ends_[e].tip) continue;
+            const Root root{tree_.figures(*ends_[e].tip), inside_.figures(*ends_[e].tip).murray};
+            worst.whole.murray = std::max(worst.whole.murray, root.whole.murray);
+            worst.whole.turn = std::max(worst.whole.turn, root.whole.turn);
+            worst.inside_murray = std::max(worst.inside_murray, root.inside_murray);
+            roots_[e] = root;
+        }
+        for (const std::size_t e : open_) roots_.try_emplace(e, worst);
+    }
+
     const std::vector<SurfaceEnd>& ends_;
     const std::vector<EndProfile>& profiles_;
     const std::vector<double>& opening_;
-    FlowTree tree_;
+    FlowTree tree_, inside_;
+    std::map<std::size_t, Root> roots_;  ///< by end that is open
     std::vector<std::size_t> open_;
-    double widest_ = 0.0, closure_ = 0.0, course_ = 1e-6, reach_ = 0.0;
+    double widest_ = 0.0, closure_ = 0.0, course_ = 1e-6, inner_ = 1e-6, reach_ = 0.0;
     Vec3 middle_ = Vec3::Zero();
 };
 

@@ -10,9 +10,9 @@
 namespace vesselbench {
 
 /// What speaks for an end as the one where the blood enters, in the order of `kInletFeatures`.
-inline constexpr std::array<std::string_view, 11> kInletFeatures = {
-    "murray", "turn",   "width",       "closure",     "course", "others",
-    "length", "height", "height_wide", "height_size", "opening"};
+inline constexpr std::array<std::string_view, 14> kInletFeatures = {
+    "murray", "turn",        "width",       "closure", "course", "others",       "length",
+    "height", "height_wide", "height_size", "opening", "inner",  "murray_inner", "flare"};
 
 using InletFeatures = std::array<double, kInletFeatures.size()>;
 

@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "geometry/kernel/measure.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
 #include "geometry/vessel/openings/opening_axis.h"
@@ -16,7 +17,7 @@ namespace vesselbench {
 namespace {
 
 /// A cut through a vessel's side is longer than its own vessel is wide, or a slit.
-constexpr double kWidestSection = 2.0;  ///< diameter over that of the inscribed circle
+constexpr double kWidestSection = 2.0;  ///< diameter over that of an inscribed circle
 constexpr double kLeastRoundness = 0.3;
 /// A cut of a closed end is at least so wide beside its vessel [-].
 constexpr double kLeastWidth = 0.4;
@@ -58,9 +59,12 @@ std::string CutTrials::shape_problem(const SectionCurve& curve, const OpeningPla
 }
 
 /// A thread at a vessel's closed end, such as a speck of noise, is no vessel: the line runs through
-/// it to its tip, but the end is that of the vessel.
+/// it to its tip, but the end is that of the vessel. A section that is much wider is another
+/// vessel's, such as the one that a branch leaves.
 std::string CutTrials::width_problem(const OpeningPlace& place, std::size_t end) const {
-    if (ends_[end].is_visible() || !(place.diameter < kLeastWidth * courses_[end])) return "";
+    const double least = ends_[end].is_visible() ? 0.0 : kLeastWidth * courses_[end];
+    const bool too_wide = courses_[end] > 0.0 && place.diameter > kWidestSection * courses_[end];
+    if (!too_wide && !(place.diameter < least)) return "";
     return "a cut there would be " + formatted(place.diameter) + " mm wide, but the vessel is " +
            formatted(courses_[end]) + " mm wide";
 }
@@ -144,6 +148,7 @@ std::string CutTrials::problem_of(const OpeningPlace& place, std::size_t end) {
     const auto curve = cross_section_at(surface_, place.plane);
     if (!curve || !curve->closed || !encloses(*curve, place.plane, place.plane.point))
         return "there is no closed section";
+    if (curve->area <= 0.0 && volume(surface_) > 0.0) return "the wall lies inside out there";
     strip_.clear();
     for (const TriangleId t : curve->triangles) {
         if (surface_.patch_of(t).kind != PatchKind::Wall) return "a cut there would meet a cap";

@@ -56,7 +56,7 @@ bool has_opening(const EndRecord& end) {
 
 /// It is certain that no blood flows there.
 bool is_certainly_closed(const EndRecord& end) {
-    return end.verdict && end.verdict->odds.for_opening() < 1.0 / kCertain;
+    return end.verdict && end.verdict->odds.for_opening() < 1.0 / end_limits().certain;
 }
 
 /// It was to be opened, or may be an opening. Of what was left closed beside cuts, the odds do not
@@ -82,17 +82,6 @@ bool is_missing(const OpeningPlan& plan, const EndRecord& end) {
            !is_part_of_cut(plan, end);
 }
 
-bool is_doubtful(const OpeningPlan& plan, const EndRecord& end) {
-    return end.verdict && end.verdict->doubtful && !end.asked && !end.wanted &&
-           !is_part_of_cut(plan, end);
-}
-
-std::string numbered(const EndRecord& end) {
-    return "end " + std::to_string(end.number) + " at " + place_text(end.place) + ", " +
-           formatted(end.diameter) + " mm wide with " +
-           formatted(100.0 * end.share(), "%.3g %% of the flow");
-}
-
 bool is_inlet(const OpeningPlan& plan, const EndRecord& end) {
     return end.opening && std::ranges::count(plan.inlets, *end.opening) > 0;
 }
@@ -109,6 +98,34 @@ std::pair<const EndRecord*, const EndRecord*> trunk_and_rival(const OpeningPlan&
             rival = &end;
     }
     return {trunk, rival};
+}
+
+/// An end that could not be cut, behind a vessel with a share of the flow that leads to no opening:
+/// each of its tips may be thin, where a wide end is frayed.
+bool ends_vessel(const OpeningPlan& plan, const EndRecord& end) {
+    const EndRecord* trunk = trunk_and_rival(plan).first;
+    if (!end.tried || !end.verdict || !end.verdict->open || !trunk) return false;
+    const auto leads_to_opening = [&](std::size_t branch) {
+        return std::ranges::any_of(plan.ends, [&](const EndRecord& other) {
+            return other.verdict && (has_opening(other) || is_part_of_cut(plan, other)) &&
+                   std::ranges::count(other.verdict->through, branch, &SharedVessel::branch) > 0;
+        });
+    };
+    return std::ranges::any_of(end.verdict->through, [&](const SharedVessel& vessel) {
+        const double part = vessel.diameter / trunk->verdict->profile.diameter;
+        return part * part * part > kLeastShare && !leads_to_opening(vessel.branch);
+    });
+}
+
+bool is_doubtful(const OpeningPlan& plan, const EndRecord& end) {
+    return end.verdict && end.verdict->doubtful && !end.asked && !end.wanted &&
+           !is_part_of_cut(plan, end);
+}
+
+std::string numbered(const EndRecord& end) {
+    return "end " + std::to_string(end.number) + " at " + place_text(end.place) + ", " +
+           formatted(end.diameter) + " mm wide with " +
+           formatted(100.0 * end.share(), "%.3g %% of the flow");
 }
 
 std::vector<int> inlet_numbers(const OpeningPlan& plan) {
@@ -149,7 +166,8 @@ FlowProblem flow_problem(const OpeningPlan& plan, bool accept_doubts) {
         return problem;
     }
     collect([&](const EndRecord& end) {
-        return is_missing(plan, end) && !(is_doubtful(plan, end) && !end.tried);
+        return ends_vessel(plan, end) ||
+               (is_missing(plan, end) && !(is_doubtful(plan, end) && !end.tried));
     });
     if (!problem.ends.empty()) {
         const EndRecord& end = problem.ends.front();

@@ -11,7 +11,7 @@ namespace vesselbench {
 
 /// What a plan lacks for a flow, with a list of all ends and their reasons; empty: nothing. A flow
 /// needs two openings. An end with a share of the flow (kLeastShare) must not be missing, unless it
-/// is asked for or certain to be a sac or a bump; nor may the odds of one be in doubt (kCertain).
+/// is asked for or certain to be a sac or a bump; nor may the odds of one be in doubt (EndLimits).
 [[nodiscard]] std::string why_no_flow(const OpeningPlan& plan, bool accept_doubts = false);
 
 /// \param options that made the plan

@@ -28,8 +28,8 @@ VOLUMES = {"mask": voxelised, "image": voxelised, "box-mask": boxed, "box-image"
 def as_is(truth, case, folder):
     """Writes the truth of a case whose input is the source's own file."""
     arguments = [os.path.join(truth["folder"], a) if "/" in a else a for a in truth.get("arguments") or []]
-    if suffix(truth) in ("obj", "stl") and truth.get("units") == "mm" and "--units" not in arguments:
-        arguments += ["--units", "mm"]
+    if suffix(truth) in ("obj", "stl") and truth.get("units") and "--units" not in arguments:
+        arguments += ["--units", truth["units"]]  # which these files do not state
     os.makedirs(folder, exist_ok=True)
     write_truth(folder, truth, name=case, source=truth["name"], made="as-is", arguments=arguments,
                 input=os.path.abspath(file_of(truth)))

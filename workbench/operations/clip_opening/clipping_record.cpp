@@ -61,8 +61,12 @@ ordered_json verdict_json(const EndRecord& end) {
         for (std::size_t f = 0; f < kInletFeatures.size(); ++f)
             inlet["features"][std::string(kInletFeatures[f])] = v.inlet->features[f];
     }
+    ordered_json through = ordered_json::array();
+    for (const SharedVessel& vessel : v.through)
+        through.push_back({{"vessel", vessel.branch}, {"diameter_mm", vessel.diameter}});
     return {{"inlet", inlet},
             {"vessel_mm", v.profile.diameter},
+            {"through", std::move(through)},
             {"opening", v.odds.opening},
             {"sac", v.odds.sac},
             {"bump", v.odds.bump},
