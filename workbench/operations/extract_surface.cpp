@@ -155,6 +155,7 @@ Report report_of(const Extraction& extraction, const std::vector<Segment>& segme
                            {"joined_voxels", lumen->joined}, {"one_voxel_wide", lumen->chain}};
     if (const auto& from = extraction.from_mask)
         report["distance_from_mask_mm"] = {{"mean", from->mean}, {"largest", from->largest}};
+    if (extraction.between_slices == BetweenSlices::Curved) report["between_slices"] = "curved";
     if (extraction.method == ExtractionMethod::Wall)
         report["edges_share"] = extraction.from_mask->seen;
     if (extraction.before) {
@@ -403,7 +404,15 @@ std::vector<Parameter> label_parameters() {
              "and corners only, with missing voxels filled, and closed where its wall touches "
              "the image's border; or midway between voxels, with their staircases",
          .choices = {"smooth", "lumen", "midway"},
-         .only_with = Condition{"method", {"auto", "labels"}}},
+         .only_with = Condition{"method", {"auto", "labels", "wall"}}},
+        {.name = "between_slices",
+         .type = Choice,
+         .default_value = "straight",
+         .help = "smooth surface of a mask in slices at least 3.5 times as thick as its voxels: "
+                 "straight from slice to slice, with ridges where the vessel runs obliquely, or "
+                 "curved as within slices",
+         .choices = {"straight", "curved"},
+         .only_with = Condition{"method", {"auto", "labels", "wall"}}},
         {.name = "dilation",
          .type = Integer,
          .unit = "voxels",
