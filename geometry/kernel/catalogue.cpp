@@ -88,7 +88,12 @@ constexpr CatalogueText kTexts[] = {
      "a true ring of vessels, such as the circle of Willis, stays"},
     {"many-handles",
      "the lumen has {handles#handle}: vessels touch, or noise is part of it; choose another "
-     "threshold, or clean the image"},
+     "threshold, or clean the image[; {fix} leaves {left:%.0f} of them]"},
+    {"pillar-in-lumen",
+     "something passes through the lumen at {place}, where the ring around it is {width_mm} mm "
+     "wide "
+     "and {length_mm} mm long: voxels of a calcification or a void that the mask leaves out, or a "
+     "gap between vessels; {fix} fills it"},
 
     // Repair and local edits.
     {"outer-wall-removed",
