@@ -34,6 +34,9 @@ constexpr CatalogueText kTexts[] = {
      "{option}, by name or label; --label {several} takes two as one vessel, --label all takes all "
      "of them"},
     {"file-note", "{note}"},
+    {"file-not-read", "{reason}[; {advice}]"},
+    {"file-without-triangles",
+     "{file} contains no triangles[, {content}]: export it again as a surface"},
 
     // Extraction.
     {"all-labels-taken",
@@ -110,6 +113,12 @@ constexpr CatalogueText kTexts[] = {
     {"body-no-vessel",
      "a body of the surface cannot be a vessel: the one at {place}, {x_mm} x {y_mm} x {z_mm} mm; "
      "{fix} leaves it out, {fix2} takes it as part of the model where it overlaps"},
+    {"orientation-contradicts",
+     "the orientation of the triangles keeps contradicting itself: export the surface again, or "
+     "rebuild it from its image"},
+    {"no-triangle-left",
+     "all triangles are degenerate: there is no surface; export it again in more digits, or as a "
+     "surface instead of lines"},
     {"bodies-not-united",
      "closed bodies of the surface overlap near {place}, but cannot be united: unite them in the "
      "program that made them, or rebuild the surface from its image"},
