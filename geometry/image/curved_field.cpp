@@ -122,14 +122,7 @@ std::vector<std::uint8_t> known_voxels(const Slices& slices) {
     for_each_vertex(known.size(), [&](std::size_t v) {
         known[v] = index_of(slices.fine, v)[slices.stack] % slices.planes == 0 ? 1 : 0;
     });
-    for (const std::size_t voxel : chain_voxels(slices.mask)) {
-        VoxelIndex at = index_of(slices.mask, voxel);
-        const int middle = at[slices.stack] * slices.planes, reach = (slices.planes - 1) / 2;
-        for (int step = -reach; step <= reach; ++step) {
-            at[slices.stack] = middle + step;
-            if (holds(slices.fine, at)) known[slices.fine.offset(at[0], at[1], at[2])] = 1;
-        }
-    }
+    for (const std::size_t voxel : chain_voxels_between(slices.mask, slices.fine)) known[voxel] = 1;
     return known;
 }
 
@@ -254,6 +247,28 @@ bool has_thick_slices(const Image& mask) {
     const Vec3 spacing = mask.spacing();
     return mask.size[stack_axis_of(mask)] > 2 &&
            spacing.maxCoeff() >= kThickSlices * spacing.minCoeff();
+}
+
+std::vector<std::size_t> chain_voxels_between(const Image& mask, const Image& field) {
+    const std::size_t stack = stack_axis_of(mask);
+    const auto axis = static_cast<Eigen::Index>(stack);
+    const auto planes = static_cast<int>(std::lround(mask.spacing()[axis] / field.spacing()[axis]));
+    const int reach = (planes - 1) / 2;
+    std::vector<std::size_t> voxels;
+    for (const std::size_t voxel : chain_voxels(mask)) {
+        const auto [i, j, k] = index_of(mask, voxel);
+        const Vec3 fine = field.to_index(mask.to_patient(Vec3(i, j, k)));
+        VoxelIndex at = {static_cast<int>(std::lround(fine.x())),
+                         static_cast<int>(std::lround(fine.y())),
+                         static_cast<int>(std::lround(fine.z()))};
+        const int middle = at[stack];
+        for (int step = -reach; step <= reach; ++step) {
+            at[stack] = middle + step;
+            if (holds(field, at)) voxels.push_back(field.offset(at[0], at[1], at[2]));
+        }
+    }
+    std::ranges::sort(voxels);
+    return voxels;
 }
 
 std::optional<Image> curved_field(const Image& mask, const Progress& progress) {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "geometry/image/image.h"
 #include "geometry/kernel/progress.h"
@@ -21,5 +23,10 @@ namespace vesselbench {
 ///         voxels
 /// \throw InvalidInput as separating_field(); Cancelled if the user cancels
 [[nodiscard]] std::optional<Image> curved_field(const Image& mask, const Progress& progress = {});
+
+/// The voxels of a curved field's grid that lie in the voxels at which a vessel of the mask is one
+/// voxel wide (chain_voxels), as far as a surface between slices allows.
+/// \return offsets in the field, ascending
+[[nodiscard]] std::vector<std::size_t> chain_voxels_between(const Image& mask, const Image& field);
 
 }  // namespace vesselbench

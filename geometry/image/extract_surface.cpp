@@ -200,8 +200,8 @@ Image sides_of_field(const Image& field) {
 
 /// A field in which the chains of its mask keep their width. \param mask that it was made of
 Image with_lumen_width(const Image& mask, const Image& field, const Extraction& result) {
-    return with_voxel_width(
-        result.between_slices == BetweenSlices::Curved ? sides_of_field(field) : mask, field);
+    if (result.between_slices == BetweenSlices::Straight) return with_voxel_width(mask, field);
+    return with_voxel_width(sides_of_field(field), field, chain_voxels_between(mask, field));
 }
 
 /// The chosen labels as a mask, cleaned and resampled.
