@@ -71,7 +71,8 @@ struct ExtractionParameters {
     bool local_levels = false;  ///< of intensities, starting from the threshold (level_field.h)
     std::optional<bool> inside_below;  ///< the vessel has the values below the threshold
     std::vector<int> labels;           ///< empty: any label above 0
-    MaskSurface mask_surface = MaskSurface::Midway;          ///< of labels; other methods ignore it
+    /// Of labels, and of a drawn wall, which is never midway; other methods ignore it.
+    MaskSurface mask_surface = MaskSurface::Midway;
     BetweenSlices between_slices = BetweenSlices::Straight;  ///< of a smooth surface of a mask
     int dilation = 1;  ///< radius of the mask's dilation [voxels] (3 x 3 x 3 kernel)
     Cleaning cleaning;
