@@ -109,7 +109,7 @@ KINDS = [
     Kind("a neighbour in RAS axes", "mask.nii.gz", ["--neighbour", "@tumour_ras.stl", "--units", "mm", "--for", "planning"],
          "1.6 mm beside the vessel", "RAS ignored: 78 mm away, exit 0", distance("tumour_ras", 1.6)),
     Kind("the same in LPS axes", "mask.nii.gz", ["--neighbour", "@tumour_lps.stl", "--units", "mm", "--for", "planning"],
-         "1.6 mm beside the vessel", "1.6 mm", distance("tumour_lps", 1.6)),
+         "1.6 mm beside the vessel", "not noted", distance("tumour_lps", 1.6)),
     Kind("a stenosis one voxel wide", "string.nii.gz", ["--for", "cfd"],
          "as wide as a voxel, and said that the mask says no more", "0.08 to 0.2 mm wide; 'misses 1 thin vessel'", stenosis),
     Kind("trunk and branch as bodies that overlap", "overlap.stl", ["--units", "mm", "--for", "cfd"], "united: 3 openings",
@@ -122,16 +122,16 @@ KINDS = [
     Kind("a segment cropped to its own box", "tight_box.nii.gz", ["--for", "cfd"], "its sides are wall: 2 openings",
          "its sides become openings", openings(2, "touches the image's border")),
     Kind("a segment by its name", "two.seg.nrrd", ["--label", "artery", "--for", "rp"], "the artery, 26.3 ml",
-         "the largest body, bone", artery(0.03)),
+         "no `--label`", artery(0.03)),
     Kind("several segments, none chosen", "two.seg.nrrd", ["--for", "rp"], "the list of segments, nothing made",
-         "the largest body, bone", asked("artery")),
+         "the spine, exit 0", asked("artery")),
     Kind("segments cropped as 3D Slicer saves them", "cropped.seg.nrrd", ["--label", "artery", "--for", "rp"],
-         "the artery, 26.3 ml", "the largest body, bone", artery(0.03)),
+         "the artery, 26.3 ml", "no `--label`", artery(0.03)),
     Kind("the same voxels on a flipped axis", "flipped.seg.nrrd", ["--label", "artery", "--for", "rp"], "the artery, 26.3 ml",
-         "the largest body, bone", artery(0.03)),
+         "no `--label`", artery(0.03)),
     Kind("segments that overlap, in layers", "overlap.seg.nrrd", ["--label", "artery", "--for", "rp"], "one of them is taken",
-         "refused", artery(0.03)),
-    Kind("one segment", "plain.seg.nrrd", ["--for", "rp"], "no question", "made", artery(0.03)),
+         "a clear refusal", artery(0.03)),
+    Kind("one segment", "plain.seg.nrrd", ["--for", "rp"], "no question", "not noted", artery(0.03)),
     Kind("a drawn mask beside its image", "ct.nrrd", ["--mask", "@cropped.seg.nrrd", "--label", "artery", "--for", "rp"],
          "the mask's wall, moved by at most a voxel", "31.0 ml, 4 handles", artery(0.05)),
 ]
@@ -166,7 +166,7 @@ ABOUT = """# Kinds of input that people have
 {written}
 
 The inputs are small and made up; the kind of fault is real. *Before* is what revision a36b1d73 made of them, as the notes beside
-the inputs have it. tests/workbench/strangers_test.cpp and label_choice_test.cpp expect the same of most.
+the inputs and the report of that trial have it. tests/workbench/strangers_test.cpp and label_choice_test.cpp expect the same of most.
 
 """
 
