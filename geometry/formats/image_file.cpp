@@ -3,6 +3,7 @@
 #include "geometry/formats/image_bytes.h"
 #include "geometry/formats/image_formats.h"
 #include "geometry/formats/label_table.h"
+#include "geometry/formats/unreadable_file.h"
 #include "geometry/image/threshold.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/regular_file.h"
@@ -13,7 +14,7 @@ namespace vesselbench {
 
 namespace {
 
-ImageFile read_any(const std::string& path) {
+ImageFile read_format(const std::string& path) {
     if (!file_exists(path)) throw IoError(bare_name(path) + ": no such file");
     refuse_special_file(path);
     const ImageFormat* format = row_that_reads(image_formats(), path);
@@ -22,6 +23,10 @@ ImageFile read_any(const std::string& path) {
     ImageFile file = format->read(path);
     file.format = format->name;
     return file;
+}
+
+ImageFile read_any(const std::string& path) {
+    return read_or_explain([&] { return read_format(path); });
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include "geometry/formats/file_parts.h"
 #include "geometry/formats/surface_formats.h"
+#include "geometry/formats/unreadable_file.h"
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/regular_file.h"
 #include "geometry/kernel/whole_file.h"
@@ -30,6 +32,12 @@ PatientAxes axes_of(const RawSurface& raw, std::optional<PatientAxes> given,
     return axes;
 }
 
+std::map<std::string, std::string> words_of_empty(const std::string& path, const RawSurface& raw) {
+    std::map<std::string, std::string> words = {{"file", bare_name(path)}};
+    if (!raw.positions.empty()) words["content"] = "only points";
+    return words;
+}
+
 }  // namespace
 
 bool holds_surface(const std::string& path) {
@@ -44,11 +52,10 @@ SurfaceFile read_surface(const std::string& path, std::optional<LengthUnit> unit
     if (!format)
         throw InvalidInput(bare_name(path) + ": surfaces are read from " +
                            enumerated(read_suffixes(surface_formats())) + " files");
-    RawSurface raw = format->read(path);
+    RawSurface raw = read_or_explain([&] { return format->read(path); });
     if (raw.triangles.empty())
-        throw InvalidInput(bare_name(path) + " contains no triangles" +
-                           (raw.positions.empty() ? "" : ", only points") +
-                           ": export it again as a surface");
+        throw DiagnosedInput(
+            {.code = "file-without-triangles", .words = words_of_empty(path, raw)});
     SurfaceFile file;
     file.notes = raw.notes;
     file.axes = axes_of(raw, axes, file.notes);

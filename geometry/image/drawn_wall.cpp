@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "geometry/image/clean_image.h"
-#include "geometry/image/separating_field.h"
+#include "geometry/image/lines.h"
 #include "geometry/image/vessel_block.h"
 #include "geometry/image/voxel_band.h"
 #include "geometry/image/voxels.h"
@@ -322,27 +322,91 @@ Image moved_once(const Image& image, const Image& field, const VoxelBand& band,
     return with_voxels(field, std::move(values));
 }
 
-}  // namespace
+/// Where the grid of a mask's curved field lies on the mask's.
+struct FinerGrid {
+    VoxelBlock block;       ///< of the mask's grid
+    std::size_t stack = 0;  ///< the axis that has more planes
+    int planes = 1;         ///< per slice
+};
 
-DrawnWall drawn_wall(const Image& image, const Image& mask, const Progress& progress) {
-    DrawnWall wall;
-    wall.mask_field = separating_field(mask, progress.part(0.0, 0.7));
+FinerGrid finer_grid(const Image& mask, const Image& fine) {
+    FinerGrid grid;
+    const Vec3 first = mask.to_index(fine.to_patient(Vec3::Zero()));
+    for (std::size_t a = 0; a < 3; ++a) {
+        const auto axis = static_cast<Eigen::Index>(a);
+        const auto planes =
+            static_cast<int>(std::lround(mask.spacing()[axis] / fine.spacing()[axis]));
+        grid.block.from[a] = static_cast<int>(std::lround(first[axis]));
+        grid.block.size[a] = (fine.size[a] - 1) / planes + 1;
+        if (planes > grid.planes) {
+            grid.stack = a;
+            grid.planes = planes;
+        }
+    }
+    return grid;
+}
+
+/// A field on the finer grid where it meets the mask's grid; elsewhere the least value.
+Image on_slices(const Image& mask, const Image& fine, const FinerGrid& grid) {
+    Image part = part_of(mask, grid.block);
+    part = mapped(part, [&](std::size_t v) {
+        VoxelIndex at = index_of(part, v);
+        at[grid.stack] *= grid.planes;
+        return fine.at(at[0], at[1], at[2]);
+    });
+    return with_part(mask, grid.block, *part.voxels, *std::ranges::min_element(*fine.voxels));
+}
+
+/// The finer field plus what a field on the mask's grid gained, linear between slices.
+Image with_gain(const Image& fine, const Image& before, const Image& after, const FinerGrid& grid) {
+    const Image old = part_of(before, grid.block);
+    std::vector<float> gain = *part_of(after, grid.block).voxels;
+    for (std::size_t v = 0; v < gain.size(); ++v) gain[v] -= (*old.voxels)[v];
+    const auto between = [](const float* line, std::size_t n, double position) {
+        const auto low = std::min(static_cast<std::size_t>(position), n - 1);
+        const auto t = static_cast<float>(position - static_cast<double>(low));
+        return (1.0f - t) * line[low] + t * line[std::min(low + 1, n - 1)];
+    };
+    std::vector<float> values = resampled_lines(gain, old.size, grid.stack, fine.size[grid.stack],
+                                                1.0 / grid.planes, between);
+    for (std::size_t v = 0; v < values.size(); ++v) values[v] += (*fine.voxels)[v];
+    return with_voxels(fine, std::move(values));
+}
+
+/// The field of a mask, on its grid, with its wall moved to the image's edges.
+Image moved_field(const Image& image, const Image& mask, const Image& mask_field, double& seen,
+                  const Progress& progress) {
     constexpr int kMargin = 8;  // the windows' reach
     const VoxelBlock block = block_of(mask, kMargin);
     const Image near = part_of(image, block), near_mask = part_of(mask, block),
-                field = part_of(wall.mask_field, block);
-    progress.report(0.7, "finding the image's edges at the wall");
+                field = part_of(mask_field, block);
+    progress.report(0.0, "finding the image's edges at the wall");
     const VoxelBand band = voxel_band(near_mask, kLayers);
     const WallBounds bounds = bounds_of(band, field);
     Image moved = field;
     // Later passes see levels and normals that the contours' errors no longer spoil.
     for (const double stiffness : kStiffness) {
         progress.check_cancelled();
-        moved = moved_once(near, moved, band, bounds, stiffness, wall.seen);
+        moved = moved_once(near, moved, band, bounds, stiffness, seen);
     }
     std::vector<float> values = *moved.voxels;
     keep_topology(field, band, values);
-    wall.field = with_part(wall.mask_field, block, values);
+    return with_part(mask_field, block, values);
+}
+
+}  // namespace
+
+DrawnWall drawn_wall(const Image& image, const Image& mask, const Image& smooth,
+                     const Progress& progress) {
+    DrawnWall wall{.mask_field = smooth};
+    if (same_grid(mask, smooth)) {
+        wall.field = moved_field(image, mask, smooth, wall.seen, progress);
+        return wall;
+    }
+    const FinerGrid grid = finer_grid(mask, smooth);
+    const Image before = on_slices(mask, smooth, grid);
+    const Image after = moved_field(image, mask, before, wall.seen, progress);
+    wall.field = with_gain(smooth, before, after, grid);
     return wall;
 }
 

@@ -7,7 +7,7 @@ namespace vesselbench {
 
 /// The wall of a vessel that somebody drew as a mask, refined by the image.
 struct DrawnWall {
-    Image mask_field;   ///< separating_field() of the mask
+    Image mask_field;   ///< of the mask's smooth surface
     Image field;        ///< the same with its zero set moved to the image's edges
     double seen = 0.0;  ///< [-] of the wall that has an edge of the image within a voxel
 };
@@ -22,8 +22,10 @@ struct DrawnWall {
 /// Source of the correction: Verbeek, van Vliet, "On the location error of curved edges in low-pass
 /// filtered 2-D and 3-D images", IEEE PAMI 1994.
 /// \param image,mask on the same grid; the mask is inside where >= 0.5
+/// \param smooth of the mask: separating_field(), or curved_field() on its finer grid, where the
+///        offsets found in the slices are linear between them
 /// \throw InvalidInput as separating_field(); Cancelled if the user cancels
-[[nodiscard]] DrawnWall drawn_wall(const Image& image, const Image& mask,
+[[nodiscard]] DrawnWall drawn_wall(const Image& image, const Image& mask, const Image& smooth,
                                    const Progress& progress = {});
 
 }  // namespace vesselbench

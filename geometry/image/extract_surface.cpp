@@ -5,6 +5,7 @@
 
 #include "geometry/image/border_grazes.h"
 #include "geometry/image/clean_image.h"
+#include "geometry/image/curved_field.h"
 #include "geometry/image/drawn_wall.h"
 #include "geometry/image/iso_surface.h"
 #include "geometry/image/missing_voxels.h"
@@ -145,8 +146,9 @@ struct Field {
     std::optional<Image> of_mask = {};  ///< the same of the mask alone, if the image moved its wall
 };
 
+/// The mask with what its lumen needs (MaskSurface::Lumen).
 /// \param fill missing voxels: nobody said how far to close the mask
-Field lumen_field(const Image& mask, bool fill, Extraction& result, const Progress& progress) {
+Image lumen_mask(const Image& mask, bool fill, Extraction& result, const Progress& progress) {
     KeptLumen& kept = result.lumen.emplace();
     FreedMask freed = without_grazes(mask);
     kept.grazes = freed.grazes;
@@ -170,7 +172,37 @@ Field lumen_field(const Image& mask, bool fill, Extraction& result, const Progre
         kept.place = whole.to_patient(Vec3(i, j, k));
     }
     progress.check_cancelled();
-    return {with_voxel_width(joined.mask, separating_field(joined.mask, progress)), 0.0};
+    return std::move(joined.mask);
+}
+
+/// The function whose zero set is a mask's smooth surface, between slices as the parameters say.
+Image smooth_field(const Image& mask, const ExtractionParameters& parameters, Extraction& result,
+                   const Progress& progress) {
+    if (parameters.between_slices == BetweenSlices::Curved && has_thick_slices(mask)) {
+        if (auto curved = curved_field(mask, progress)) {
+            result.between_slices = BetweenSlices::Curved;
+            result.sampling = sampling_of(mask);  // the finer grid holds no more of the vessel
+            return *std::move(curved);
+        }
+        result.reasons.emplace_back(
+            "straight between the slices: a surface that is curved there "
+            "would have other parts or handles than the mask");
+    }
+    return separating_field(mask, progress);
+}
+
+/// The voxels that are inside a field, as a mask.
+Image sides_of_field(const Image& field) {
+    std::vector<float> sides(field.voxel_count());
+    for_each_vertex(sides.size(),
+                    [&](std::size_t v) { sides[v] = (*field.voxels)[v] > 0.0f ? 1.0f : 0.0f; });
+    return with_voxels(field, std::move(sides));
+}
+
+/// A field in which the chains of its mask keep their width. \param mask that it was made of
+Image with_lumen_width(const Image& mask, const Image& field, const Extraction& result) {
+    if (result.between_slices == BetweenSlices::Straight) return with_voxel_width(mask, field);
+    return with_voxel_width(sides_of_field(field), field, chain_voxels_between(mask, field));
 }
 
 /// The chosen labels as a mask, cleaned and resampled.
@@ -199,10 +231,14 @@ Field label_field(const Image& labels, const ExtractionParameters& parameters, E
     Field field{chosen_mask(labels, parameters, result, progress), kMaskIso};
     progress.check_cancelled();
     result.mask_surface = parameters.mask_surface;
-    if (parameters.mask_surface == MaskSurface::Smooth)
-        field = {separating_field(field.image, progress), 0.0};
-    else if (parameters.mask_surface == MaskSurface::Lumen)
-        field = lumen_field(field.image, parameters.cleaning.closing == 0, result, progress);
+    if (parameters.mask_surface == MaskSurface::Smooth) {
+        field = {smooth_field(field.image, parameters, result, progress), 0.0};
+    } else if (parameters.mask_surface == MaskSurface::Lumen) {
+        const Image mask =
+            lumen_mask(field.image, parameters.cleaning.closing == 0, result, progress);
+        const Image smooth = smooth_field(mask, parameters, result, progress);
+        field = {with_lumen_width(mask, smooth, result), 0.0};
+    }
     field.image = gaussian(field.image, parameters.cleaning.gaussian);
     return field;
 }
@@ -266,8 +302,14 @@ Field wall_field(ImageSource& source, const ExtractionParameters& parameters, Ex
     of_image.cleaning.opening = of_image.cleaning.closing = 0;
     const Intensities& made = prepared(source, of_image, false, progress.part(0.1, 0.2));
     result.contrast = made.contrast;
-    result.mask_surface = MaskSurface::Smooth;
-    DrawnWall wall = drawn_wall(made.ready, mask, progress.part(0.2, 1.0));
+    const bool lumen = parameters.mask_surface == MaskSurface::Lumen;
+    result.mask_surface = lumen ? MaskSurface::Lumen : MaskSurface::Smooth;
+    const Image whole =
+        lumen ? lumen_mask(mask, parameters.cleaning.closing == 0, result, progress.part(0.2, 0.3))
+              : mask;
+    const Image smooth = smooth_field(whole, parameters, result, progress.part(0.3, 0.7));
+    DrawnWall wall = drawn_wall(made.ready, whole, smooth, progress.part(0.7, 1.0));
+    if (lumen) wall.field = with_lumen_width(whole, wall.field, result);
     result.from_mask.emplace().seen = wall.seen;
     result.reasons.push_back(
         "the mask is the wall: moved to the image's edges by at most a voxel, " +
@@ -400,7 +442,8 @@ void choose_body(const Field& field, const ExtractionParameters& parameters, Ext
                                                : all_bodies(all);
     progress.report(0.9, "choosing the body");
     result.surface = with_separate_cuts(choice.surface, kSmallestCut * smallest_face(field.image));
-    result.sampling = sampling_of(field.image);
+    if (result.between_slices == BetweenSlices::Straight)
+        result.sampling = sampling_of(field.image);
     result.bodies = choice.bodies;
     result.hollows = choice.hollows;
     result.largest_dropped = choice.largest_dropped;

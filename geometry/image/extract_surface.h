@@ -40,6 +40,12 @@ enum class MaskSurface {
     Lumen
 };
 
+/// How the surface of a mask runs from slice to slice where slices are thick (curved_field.h).
+enum class BetweenSlices {
+    Straight,  ///< between neighbouring voxels
+    Curved     ///< as smoothly as within them
+};
+
 /// Cleaning of the image (thesis 3.2.3), in this order; 0 skips a step.
 struct Cleaning {
     int diffusion = 0;                         ///< iterations of edge-preserving diffusion
@@ -65,7 +71,9 @@ struct ExtractionParameters {
     bool local_levels = false;  ///< of intensities, starting from the threshold (level_field.h)
     std::optional<bool> inside_below;  ///< the vessel has the values below the threshold
     std::vector<int> labels;           ///< empty: any label above 0
-    MaskSurface mask_surface = MaskSurface::Midway;  ///< of labels; other methods ignore it
+    /// Of labels, and of a drawn wall, which is never midway; other methods ignore it.
+    MaskSurface mask_surface = MaskSurface::Midway;
+    BetweenSlices between_slices = BetweenSlices::Straight;  ///< of a smooth surface of a mask
     int dilation = 1;  ///< radius of the mask's dilation [voxels] (3 x 3 x 3 kernel)
     Cleaning cleaning;
     std::optional<double> resample;  ///< edge of cubic voxels [mm]
@@ -102,6 +110,7 @@ struct Extraction {
     bool inside_below = false;
     MaskSurface mask_surface = MaskSurface::Midway;
     std::optional<KeptLumen> lumen;
+    BetweenSlices between_slices = BetweenSlices::Straight;
     std::vector<int> labels;              ///< that are inside
     std::optional<double> contrast;       ///< of the diffusion, if it ran
     std::optional<WallLevels> levels;     ///< that took the threshold's place

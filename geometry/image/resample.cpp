@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <string>
 #include <utility>
 
 #include "geometry/image/lines.h"
+#include "geometry/image/slice_distances.h"
 #include "geometry/image/squared_distances.h"
 #include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
@@ -43,29 +43,6 @@ Image cubic_grid(const Image& image, double edge) {
     for (Eigen::Index axis = 0; axis < 3; ++axis)
         grid.index_to_patient.block<3, 1>(0, axis) *= edge / spacing[axis];
     return grid;
-}
-
-/// Values at the new positions along one axis; sample(line, position) gives one of them.
-std::vector<float> resample_axis(
-    const std::vector<float>& values, const std::array<int, 3>& size, std::size_t axis, int count,
-    double step, const std::function<float(const float*, std::size_t, double)>& sample) {
-    std::size_t stride = 1;
-    for (std::size_t a = 0; a < axis; ++a) stride *= static_cast<std::size_t>(size[a]);
-    const auto n = static_cast<std::size_t>(size[axis]), m = static_cast<std::size_t>(count);
-    const std::size_t lines = values.size() / n;
-    std::vector<float> result(lines * m);
-    const auto work = [&](const tbb::blocked_range<std::size_t>& range) {
-        std::vector<float> line(n);
-        for (std::size_t l = range.begin(); l != range.end(); ++l) {
-            const std::size_t block = l / stride, within = l % stride;
-            for (std::size_t i = 0; i < n; ++i) line[i] = values[(block * n + i) * stride + within];
-            for (std::size_t i = 0; i < m; ++i)
-                result[(block * m + i) * stride + within] =
-                    sample(line.data(), n, static_cast<double>(i) * step);
-        }
-    };
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, lines, 64), work);
-    return result;
 }
 
 /// Turns samples into cubic B-spline coefficients, in place (mirrored ends).
@@ -112,35 +89,6 @@ float linear_at(const float* line, std::size_t n, double position) {
     return static_cast<float>((1.0 - t) * line[i] + t * next);
 }
 
-/// Distance [mm] within each slice to the nearest voxel where inside == wanted; kFarSquared if
-/// none.
-std::vector<float> slice_distances(const Image& mask, std::size_t stack, bool wanted) {
-    std::vector<float> d(mask.voxels->size());
-    for (std::size_t v = 0; v < d.size(); ++v)
-        d[v] = ((*mask.voxels)[v] >= 0.5f) == wanted ? 0.0f : kFarSquared;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        if (axis != stack) {
-            const double h = mask.spacing()[static_cast<Eigen::Index>(axis)];
-            for_each_line(d, mask.size, static_cast<int>(axis),
-                          [h](std::vector<float>& line) { squared_distances(line, h); });
-        }
-    for (float& v : d) v = v >= kFarSquared ? kFarSquared : std::sqrt(v);
-    return d;
-}
-
-/// Signed distances within slices, positive inside. The outline lies midway between voxels, so both
-/// kinds of distance include half a voxel.
-std::vector<float> signed_slice_distances(const Image& mask, std::size_t stack) {
-    const auto outside = slice_distances(mask, stack, false);
-    const auto inside = slice_distances(mask, stack, true);
-    std::vector<float> signed_distance(outside.size());
-    for (std::size_t v = 0; v < outside.size(); ++v)
-        signed_distance[v] = outside[v] >= kFarSquared  ? kFarSquared
-                             : inside[v] >= kFarSquared ? -kFarSquared
-                                                        : outside[v] - inside[v];
-    return signed_distance;
-}
-
 /// An empty (or full) slice has no distances: it takes its neighbour's with the opposite sign, so
 /// that the shape ends midway between the two.
 float between_slices(const float* line, std::size_t n, double position) {
@@ -166,7 +114,7 @@ Image resample_intensities(const Image& image, double edge) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const double step = edge / image.spacing()[static_cast<Eigen::Index>(axis)];
         for_each_line(values, size, static_cast<int>(axis), to_coefficients);
-        values = resample_axis(values, size, axis, grid.size[axis], step, bspline_at);
+        values = resampled_lines(values, size, axis, grid.size[axis], step, bspline_at);
         size[axis] = grid.size[axis];
     }
     return with_voxels(std::move(grid), std::move(values));
@@ -182,8 +130,8 @@ Image resample_mask(const Image& mask, double edge) {
     const std::array<std::size_t, 3> order = {stack, (stack + 1) % 3, (stack + 2) % 3};
     for (const std::size_t axis : order) {
         const double step = edge / mask.spacing()[static_cast<Eigen::Index>(axis)];
-        values = resample_axis(values, size, axis, grid.size[axis], step,
-                               axis == stack ? between_slices : linear_at);
+        values = resampled_lines(values, size, axis, grid.size[axis], step,
+                                 axis == stack ? between_slices : linear_at);
         size[axis] = grid.size[axis];
     }
     for (float& v : values) v = v > 0.0f ? 1.0f : 0.0f;

@@ -198,13 +198,17 @@ std::vector<std::size_t> chain_voxels(const Image& mask) {
     return chain;
 }
 
-Image with_voxel_width(const Image& mask, const Image& field) {
-    const Voxels voxels(mask);
+namespace {
+
+/// \param for_each calls visit(index) for the voxels inside that keep their width
+template <class ForEach>
+Image keeping_width(const Voxels& voxels, const Image& mask, const Image& field,
+                    const ForEach& for_each) {
     const Vec3 spacing = mask.spacing();
     const auto half = static_cast<float>(0.5 * spacing.minCoeff());
     std::vector<float> values = *field.voxels;
     std::vector<std::pair<VoxelIndex, float>> thin;
-    voxels.for_each_inside([&](const VoxelIndex& at) {
+    for_each([&](const VoxelIndex& at) {
         const float share = least_share(voxels, at);
         if (share == 0.0f) return;
         float& value = values[voxels.offset(at)];
@@ -221,6 +225,22 @@ Image with_voxel_width(const Image& mask, const Image& field) {
         }
     }
     return with_voxels(field, std::move(values));
+}
+
+}  // namespace
+
+Image with_voxel_width(const Image& mask, const Image& field) {
+    const Voxels voxels(mask);
+    return keeping_width(voxels, mask, field,
+                         [&](const auto& visit) { voxels.for_each_inside(visit); });
+}
+
+Image with_voxel_width(const Image& mask, const Image& field, std::span<const std::size_t> only) {
+    const Voxels voxels(mask);
+    return keeping_width(voxels, mask, field, [&](const auto& visit) {
+        for (const std::size_t voxel : only)
+            if (const VoxelIndex at = index_of(mask, voxel); voxels.is_in(at)) visit(at);
+    });
 }
 
 }  // namespace vesselbench

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "geometry/image/image.h"
@@ -28,5 +29,10 @@ struct JoinedMask {
 /// thick. Voxel centres keep their sides.
 /// \param field above 0 inside, as from separating_field of the mask [mm]
 [[nodiscard]] Image with_voxel_width(const Image& mask, const Image& field);
+
+/// The same of some voxels of the mask only: tips of a contour are thin as well, and become spikes.
+/// \param only offsets of voxels; those outside the mask do not count
+[[nodiscard]] Image with_voxel_width(const Image& mask, const Image& field,
+                                     std::span<const std::size_t> only);
 
 }  // namespace vesselbench

@@ -34,6 +34,9 @@ constexpr CatalogueText kTexts[] = {
      "{option}, by name or label; --label {several} takes two as one vessel, --label all takes all "
      "of them"},
     {"file-note", "{note}"},
+    {"file-not-read", "{reason}[; {advice}]"},
+    {"file-without-triangles",
+     "{file} contains no triangles[, {content}]: export it again as a surface"},
 
     // Extraction.
     {"all-labels-taken",
@@ -88,7 +91,12 @@ constexpr CatalogueText kTexts[] = {
      "a true ring of vessels, such as the circle of Willis, stays"},
     {"many-handles",
      "the lumen has {handles#handle}: vessels touch, or noise is part of it; choose another "
-     "threshold, or clean the image"},
+     "threshold, or clean the image[; {fix} leaves {left:%.0f} of them]"},
+    {"pillar-in-lumen",
+     "something passes through the lumen at {place}, where the ring around it is {width_mm} mm "
+     "wide "
+     "and {length_mm} mm long: voxels of a calcification or a void that the mask leaves out, or a "
+     "gap between vessels; {fix} fills it"},
 
     // Repair and local edits.
     {"outer-wall-removed",
@@ -105,6 +113,12 @@ constexpr CatalogueText kTexts[] = {
     {"body-no-vessel",
      "a body of the surface cannot be a vessel: the one at {place}, {x_mm} x {y_mm} x {z_mm} mm; "
      "{fix} leaves it out, {fix2} takes it as part of the model where it overlaps"},
+    {"orientation-contradicts",
+     "the orientation of the triangles keeps contradicting itself: export the surface again, or "
+     "rebuild it from its image"},
+    {"no-triangle-left",
+     "all triangles are degenerate: there is no surface; export it again in more digits, or as a "
+     "surface instead of lines"},
     {"bodies-not-united",
      "closed bodies of the surface overlap near {place}, but cannot be united: unite them in the "
      "program that made them, or rebuild the surface from its image"},

@@ -21,6 +21,20 @@ Surface body_of(const Surface& surface, const Components& parts, std::uint32_t p
     return volume(body) < 0.0 ? flipped(body) : body;
 }
 
+/// The same body again, or one inside: both cannot be united where their walls coincide, and need
+/// not be.
+bool lies_within(const Surface& body, const SurfaceDistance& other) {
+    const double tolerance = 1e-4 * bounds(body).diagonal();
+    const auto is_within = [&](const Vec3& p) {
+        return other.closest_point(p).distance <= tolerance || other.inside(p);
+    };
+    return std::ranges::all_of(body.points(), is_within) &&
+           std::ranges::all_of(body.triangles(), [&](const Triangle& t) {
+               return is_within((body.points()[t[0]] + body.points()[t[1]] + body.points()[t[2]]) /
+                                3.0);
+           });
+}
+
 Surface union_of(const Surface& one, const Surface& other) {
     const SurfaceDistance distance(one);
     CorefinementProblem problem = CorefinementProblem::Degenerate;
@@ -28,6 +42,8 @@ Surface union_of(const Surface& one, const Surface& other) {
         one, other, StampMode::Add, [&](const Vec3& p) { return distance.inside(p); }, problem);
     if (both) return std::move(both->surface);
     if (problem == CorefinementProblem::Swallowed) return other;
+    if (lies_within(other, distance)) return one;
+    if (lies_within(one, SurfaceDistance(other))) return other;
     const Bounds box = bounds(other);
     throw DiagnosedFailure({.code = "bodies-not-united", .place = 0.5 * (box.min + box.max)});
 }

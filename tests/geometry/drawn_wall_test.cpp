@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "geometry/image/extract_surface.h"
+#include "geometry/image/separating_field.h"
 #include "geometry/image/voxel_topology.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/simple_point.h"
@@ -99,7 +100,7 @@ SCENARIO("The image does not change a drawn wall's topology", "[images][wall]") 
         };
         const Image mask = halves(0.8 * kVoxel);
         REQUIRE(voxel_topology(mask, 0.5).components == 2);
-        const DrawnWall wall = drawn_wall(ball(), mask);
+        const DrawnWall wall = drawn_wall(ball(), mask, separating_field(mask));
         THEN("they stay two") {
             CHECK(voxel_topology(wall.field, 0.0).components == 2);
         }

@@ -1,6 +1,7 @@
 #include "workbench/operations/shared/bodies.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -87,6 +88,17 @@ SCENARIO("Closed bodies that overlap are united", "[workbench][bodies]") {
         CHECK_FALSE(warns(outcome, "bodies-united"));
         CHECK(area(*outcome.scene.surface) == Approx(area(trunk())));
     }
+}
+
+SCENARIO("The same body twice is one body", "[workbench][bodies]") {
+    // Their walls coincide nearly, so that they cannot be united, and need not be.
+    const Surface again = mapped(trunk(), [](const Vec3& p) {
+        return Vec3(p + 2e-4 * Vec3(std::sin(40.0 * p.z()), std::sin(50.0 * p.x()), 0.0));
+    });
+    const Outcome outcome = repaired(merged(trunk(), again), "ask");
+    CHECK(count_of(*outcome.scene.surface) == 1);
+    CHECK(is_closed_manifold(*outcome.scene.surface));
+    CHECK(volume(*outcome.scene.surface) == Approx(volume(trunk())).epsilon(0.01));
 }
 
 SCENARIO("A base plate is no vessel, however large it is", "[workbench][bodies]") {

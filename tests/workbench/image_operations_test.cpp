@@ -222,6 +222,35 @@ SCENARIO("A handle of the lumen is named with its place and size", "[workbench][
     }
 }
 
+SCENARIO("What passes through a mask's lumen is filled by the closing that is offered",
+         "[workbench][images][remedies]") {
+    Image grid;
+    grid.size = {24, 24, 60};
+    grid.index_to_patient.diagonal().head<3>() = Vec3::Constant(0.5);
+    // A tube of 8 mm, through which a pillar one voxel wide goes.
+    Scene scene;
+    scene.image = image_of(grid.size, grid.index_to_patient, [&](const Vec3& p) {
+        const Vec3 at = grid.to_index(p).array().round();
+        const bool pillar = at.z() > 28.5 && at.z() < 30.5 && at.y() == 12;
+        return std::hypot(p.x() - 6.0, p.y() - 6.0) < 4.0 && !pillar ? 1.0 : 0.0;
+    });
+    const Outcome holed =
+        run("extract-surface", scene, {{"method", "labels"}, {"mask_surface", "lumen"}});
+    REQUIRE(connectivity(*holed.scene.surface->topology).genus == 1);
+    const auto warning =
+        std::ranges::find(holed.warnings, std::string("pillar-in-lumen"), &Diagnostic::code);
+    REQUIRE(warning != holed.warnings.end());
+    CHECK(warning->place->z() == Approx(14.75).margin(1.5));
+    const Remedy& remedy = warning->remedies.at(0);
+    CHECK(remedy.arguments == std::map<std::string, std::string>{{"closing", "1"}});
+    const Outcome filled =
+        run("extract-surface", scene,
+            {{"method", "labels"},
+             {"mask_surface", "lumen"},
+             {"closing", std::int64_t{std::stoi(remedy.arguments.at("closing"))}}});
+    CHECK(connectivity(*filled.scene.surface->topology).genus == 0);
+}
+
 SCENARIO("The surface of a curved tube's mask has one centerline", "[workbench][images]") {
     for (const Vec3& spacing : {Vec3(0.4, 0.4, 0.8), Vec3(0.5, 0.5, 0.5), Vec3(0.3, 0.3, 1.2)}) {
         VesselShape vessel;

@@ -1,6 +1,10 @@
 // What a preparation that stops offers, as lists of arguments.
 
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -14,6 +18,7 @@
 #include "tests/support/shapes.h"
 #include "tests/support/surface_facts.h"
 #include "workbench/operations/table.h"
+#include "workbench/prepare/recipe_run.h"
 #include "workbench/prepare/refusal_report.h"
 
 using namespace vesselbench;
@@ -117,4 +122,66 @@ SCENARIO("A command that resumes keeps the settings that are still to come, but 
                            "--out", "out", "--resume", "--set", "clip-opening.vessel=vein", "--set",
                            "remesh.edge=0.3", "--set", "clip-opening.closed=4,5,6", "--set",
                            "clip-opening.open=1,2,3"});
+}
+
+SCENARIO("An input that cannot be used is refused with a code, and says what to do elsewhere",
+         "[workbench][remedies]") {
+    const std::string folder = temporary_folder();
+    const auto refusal = [&](const std::string& name, const std::string& text) {
+        std::ofstream(folder + "/" + name) << text;
+        const ProgramRun stopped = run({"prepare", folder + "/" + name, "--for", "rp", "--units",
+                                        "mm", "--out", folder + "/out", "--json"});
+        CHECK(stopped.exit_code == 3);
+        CHECK_FALSE(std::filesystem::exists(folder + "/out/project.vbench"));
+        const Json document = Json::parse(stopped.out);
+        CHECK_THAT(document.at("error").get<std::string>(), Catch::Contains("again"));
+        REQUIRE_FALSE(document.at("diagnostics").empty());
+        return document.at("diagnostics").at(0);
+    };
+    GIVEN("a damaged file") {
+        const Json damaged = refusal("faces.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n0\n");
+        CHECK(damaged["code"] == "file-not-read");
+    }
+    GIVEN("points without triangles") {
+        CHECK(refusal("points.off", "OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n")["code"] ==
+              "file-without-triangles");
+    }
+    GIVEN("an image that is none") {
+        CHECK(refusal("image.nrrd", "NRRD0004\ntype: short\n")["code"] == "file-not-read");
+    }
+    GIVEN("a Moebius strip") {
+        std::string strip = "OFF\n80 80 0\n";
+        for (int i = 0; i < 40; ++i) {
+            const double turn = i * 2.0 * std::numbers::pi / 40.0;
+            for (const double side : {-2.0, 2.0}) {
+                const double radius = 10.0 + side * std::cos(0.5 * turn);
+                strip += std::to_string(radius * std::cos(turn)) + " " +
+                         std::to_string(radius * std::sin(turn)) + " " +
+                         std::to_string(side * std::sin(0.5 * turn)) + "\n";
+            }
+        }
+        for (int i = 0; i < 40; ++i) {
+            const int a = 2 * i, b = 2 * i + 1;
+            const int c = i < 39 ? a + 2 : 1, d = i < 39 ? b + 2 : 0;
+            strip += "3 " + std::to_string(a) + " " + std::to_string(b) + " " + std::to_string(c) +
+                     "\n3 " + std::to_string(b) + " " + std::to_string(d) + " " +
+                     std::to_string(c) + "\n";
+        }
+        CHECK(refusal("strip.off", strip)["code"] != "");
+    }
+}
+
+SCENARIO("A source of which nothing is kept is prepared again, with the answer",
+         "[workbench][remedies]") {
+    const UnusableSource none(
+        Diagnostic{.code = "vessel-within-noise",
+                   .figures = {{"loops", 200.0}},
+                   .remedies = {{.operation = "extract-surface", .arguments = {{"closing", "1"}}},
+                                {.operation = "load-image", .arguments = {{"mask", ""}}}}});
+    const PrepareOptions options{.input = {.input = "a.nrrd"}, .purpose = "cfd", .out = "out"};
+    const Json refused = refused_json(options, none, {entry_of("smooth")});
+    const Words again = command_of(refused.at(0), 0);
+    CHECK(has(again, "extract-surface.closing=1"));
+    CHECK_FALSE(has(again, "--resume"));
+    CHECK_FALSE(refused.at(0).at("remedies").at(1).contains("commands"));
 }

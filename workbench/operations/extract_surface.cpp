@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/diagnosed_error.h"
+#include "geometry/kernel/handles.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/wording.h"
 #include "workbench/case/label_choice.h"
@@ -155,6 +156,7 @@ Report report_of(const Extraction& extraction, const std::vector<Segment>& segme
                            {"joined_voxels", lumen->joined}, {"one_voxel_wide", lumen->chain}};
     if (const auto& from = extraction.from_mask)
         report["distance_from_mask_mm"] = {{"mean", from->mean}, {"largest", from->largest}};
+    if (extraction.between_slices == BetweenSlices::Curved) report["between_slices"] = "curved";
     if (extraction.method == ExtractionMethod::Wall)
         report["edges_share"] = extraction.from_mask->seen;
     if (extraction.before) {
@@ -267,6 +269,35 @@ bool warn_of_fractions(const Image& image, Outcome& outcome) {
     return true;
 }
 
+/// Names the closing in the warnings of handles that it fills. \return true if it fills any
+bool note_filled(std::vector<Diagnostic>& warnings, const Surface& closed, int radius,
+                 const Progress& progress) {
+    const int left = connectivity(*closed.topology).genus.value_or(0);
+    const Remedy remedy{.arguments = {{"closing", std::to_string(radius)}}};
+    if (const auto many = warnings.front().figures.find("handles");
+        many != warnings.front().figures.end()) {
+        if (2.0 * left > many->second) return false;
+        warnings.front().figures["left"] = left;
+        warnings.front().remedies = {remedy};
+        return true;
+    }
+    if (left >= static_cast<int>(warnings.size())) return false;
+    const std::vector<SurfaceHandle> handles =
+        left > 0 ? handles_of(closed, progress.silent()) : std::vector<SurfaceHandle>();
+    bool any = false;
+    for (Diagnostic& warning : warnings) {
+        const double reach = warning.figures.at("length_mm");
+        const bool stays = std::ranges::any_of(handles, [&](const SurfaceHandle& handle) {
+            return (handle.centre - *warning.place).norm() < reach;
+        });
+        if (stays) continue;
+        warning.code = "pillar-in-lumen";
+        warning.remedies = {remedy};
+        any = true;
+    }
+    return any;
+}
+
 class LiveExtraction final : public ReplacingStepper {
 public:
     LiveExtraction(const Scene& scene, const Arguments& arguments, Progress& progress)
@@ -286,7 +317,7 @@ public:
         const bool measured = extraction_.method == ExtractionMethod::Labels &&
                               warn_of_fractions(image_of(before_), outcome);
         warn_of_one_threshold(outcome, progress);
-        for (Diagnostic& handle : handle_warnings(extraction_.surface, progress))
+        for (Diagnostic& handle : warnings_of_handles(progress))
             outcome.warnings.push_back(std::move(handle));
         if (!measured && !labels_given_)
             warn_of_all_labels(extraction_, before_.segmentation.segments, outcome);
@@ -304,6 +335,22 @@ private:
                                     .words = {{"threshold", to_text(extraction_.threshold)},
                                               {"larger", *error > 0.0 ? "larger" : "smaller"}},
                                     .remedies = {{.arguments = {{"threshold", "local"}}}}});
+    }
+
+    /// Of a mask, with the closing that fills what passes through the lumen, where one does.
+    [[nodiscard]] std::vector<Diagnostic> warnings_of_handles(const Progress& progress) {
+        std::vector<Diagnostic> warnings = handle_warnings(extraction_.surface, progress);
+        if (warnings.empty() || !takes_voxels(extraction_.method) ||
+            parameters_.cleaning.closing > 0)
+            return warnings;
+        constexpr int kWidest = 3;  // voxels; more joins vessels
+        for (int radius = 1; radius <= kWidest; ++radius) {
+            ExtractionParameters closing = parameters_;
+            closing.cleaning.closing = radius;
+            const Surface closed = extractor_.extract(closing, progress.silent()).surface;
+            if (note_filled(warnings, closed, radius, progress)) break;
+        }
+        return warnings;
     }
 
     void use(const Arguments& arguments, Progress& progress) override {
@@ -403,7 +450,15 @@ std::vector<Parameter> label_parameters() {
              "and corners only, with missing voxels filled, and closed where its wall touches "
              "the image's border; or midway between voxels, with their staircases",
          .choices = {"smooth", "lumen", "midway"},
-         .only_with = Condition{"method", {"auto", "labels"}}},
+         .only_with = Condition{"method", {"auto", "labels", "wall"}}},
+        {.name = "between_slices",
+         .type = Choice,
+         .default_value = "straight",
+         .help = "smooth surface of a mask in slices at least 3.5 times as thick as its voxels: "
+                 "straight from slice to slice, with ridges where the vessel runs obliquely, or "
+                 "curved as within slices",
+         .choices = {"straight", "curved"},
+         .only_with = Condition{"method", {"auto", "labels", "wall"}}},
         {.name = "dilation",
          .type = Integer,
          .unit = "voxels",

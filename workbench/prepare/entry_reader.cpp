@@ -23,7 +23,7 @@ using Names = std::vector<std::string>;
 const Names kEntryKeys = {"operation",     "arguments",   "step",      "optional",
                           "unless_closed", "unless_made", "otherwise", "when"};
 /// Arguments of the ways to extract that take the mask as a region for intensities.
-const Names kRegionArguments = {"threshold", "iso", "inside", "dilation", "mask_surface"};
+const Names kRegionArguments = {"threshold", "iso", "inside", "dilation"};
 const Names kGateKeys = {"require", "when"};
 const Names kMadeKeys = {"operation", "arguments"};
 const Names kChangeKeys = {"operation", "step", "arguments"};

@@ -79,7 +79,7 @@ void require_vessel(Session& session, const LogEntry& entry, const std::string& 
         require_lumen(surface_of(scene), source);
         if (is_for_flow(variant)) require_vessel_size(surface_of(scene), source);
     } catch (const InvalidInput& error) {
-        throw UnusableSource(error.what());
+        throw UnusableSource(diagnostics_of(error));
     }
 }
 
@@ -206,7 +206,7 @@ private:
             if (operation.usual_step == Step::Source) throw;
             throw_as<AlgorithmFailure>(error);
         } catch (const AlgorithmFailure& error) {
-            if (operation.recipe.proves_source) throw UnusableSource(error.what());
+            if (operation.recipe.proves_source) throw UnusableSource(diagnostics_of(error));
             const std::string why = reason_of(error, operation);
             if (entry.otherwise) return made_otherwise(entry, why, progress);
             if (!entry.optional) throw;

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/diagnostic.h"
-#include "geometry/kernel/errors.h"
 #include "geometry/kernel/progress.h"
 #include "workbench/prepare/recipe.h"
 #include "workbench/session/session.h"
@@ -37,10 +37,10 @@ private:
     Warnings warnings_;
 };
 
-/// The loaded surface cannot be repaired: the input is bad, not the recipe.
-class UnusableSource : public InvalidInput {
+/// The loaded surface cannot be repaired, or has no vessel: the input is bad, not the recipe.
+class UnusableSource : public DiagnosedInput {
 public:
-    using InvalidInput::InvalidInput;
+    using DiagnosedInput::DiagnosedInput;
 };
 
 /// Something that a recipe could not do as it says.

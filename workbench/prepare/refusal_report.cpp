@@ -10,6 +10,7 @@
 #include "workbench/operations/clip_opening/parameters.h"
 #include "workbench/operations/table.h"
 #include "workbench/prepare/case_files.h"
+#include "workbench/prepare/recipe_run.h"
 
 namespace vesselbench {
 
@@ -104,14 +105,20 @@ bool comes(const Recipe& rest, const std::string& setting) {
     });
 }
 
+/// What a preparation that stopped leaves.
+struct Stopped {
+    const Recipe& rest;
+    bool kept = true;  ///< its project is there to go on with
+};
+
 /// \param remedy with its operation
-Json commands_of(const PrepareOptions& options, const Recipe& rest, const Diagnostic& diagnostic,
-                 const Remedy& remedy) {
+Json commands_of(const PrepareOptions& options, const Stopped& stopped,
+                 const Diagnostic& diagnostic, const Remedy& remedy) {
     Json again = prepare_command(options), commands = Json::array();
-    const bool resumes = !reads_input(diagnostic.operation);
+    const bool resumes = stopped.kept && !reads_input(diagnostic.operation);
     if (resumes) again.push_back("--resume");
     for (const std::string& setting : options.arguments)
-        if ((!resumes || comes(rest, setting)) && !replaces(remedy, setting))
+        if ((!resumes || comes(stopped.rest, setting)) && !replaces(remedy, setting))
             add_setting(again, setting);
     if (remedy.before)
         commands.push_back(apply_command(options, remedy));
@@ -124,24 +131,29 @@ Json commands_of(const PrepareOptions& options, const Recipe& rest, const Diagno
     return commands;
 }
 
-/// True if it can be given as it is: to the step that failed, to its edit, or as an edit before it.
-bool has_commands(const Diagnostic& diagnostic, const Remedy& remedy) {
-    if (remedy.action != RemedyAction::Give) return diagnostic.edit.has_value();
-    const bool own = remedy.operation.empty() || remedy.operation == diagnostic.operation;
-    return (remedy.before || (own && !remedy.arguments.empty())) &&
+/// True if it can be given as it is: to the step that failed, to its edit, or as an edit before it;
+/// where no project is left, to any step of the preparation.
+bool has_commands(const Stopped& stopped, const Diagnostic& diagnostic, const Remedy& remedy) {
+    const bool of_edit = remedy.action != RemedyAction::Give;
+    if (of_edit) return stopped.kept && diagnostic.edit.has_value();
+    const bool own = remedy.operation.empty() ? !diagnostic.operation.empty()
+                                              : remedy.operation == diagnostic.operation;
+    const bool given = !remedy.arguments.empty() &&
+                       (own || (!stopped.kept && !remedy.operation.empty() && !remedy.before));
+    return ((remedy.before && stopped.kept) || given) &&
            std::ranges::none_of(remedy.arguments,
                                 [](const auto& argument) { return argument.second.empty(); });
 }
 
 /// With the commands of each remedy.
 Json with_commands(const PrepareOptions& options, const Diagnostic& diagnostic,
-                   const Recipe& rest) {
+                   const Stopped& stopped) {
     Json json = diagnostic_json(diagnostic);
     for (std::size_t i = 0; i < diagnostic.remedies.size(); ++i) {
         Remedy remedy = diagnostic.remedies[i];
-        if (!has_commands(diagnostic, remedy)) continue;
+        if (!has_commands(stopped, diagnostic, remedy)) continue;
         if (remedy.operation.empty()) remedy.operation = diagnostic.operation;
-        json["remedies"][i]["commands"] = commands_of(options, rest, diagnostic, remedy);
+        json["remedies"][i]["commands"] = commands_of(options, stopped, diagnostic, remedy);
     }
     return json;
 }
@@ -149,9 +161,11 @@ Json with_commands(const PrepareOptions& options, const Diagnostic& diagnostic,
 }  // namespace
 
 Json refused_json(const PrepareOptions& options, const std::exception& error, const Recipe& rest) {
+    const bool unusable = dynamic_cast<const UnusableSource*>(&error) != nullptr;
+    const Stopped stopped{.rest = rest, .kept = options.resume || !unusable};
     Json diagnostics = Json::array();
     for (const Diagnostic& diagnostic : diagnostics_of(error))
-        diagnostics.push_back(with_commands(options, diagnostic, rest));
+        diagnostics.push_back(with_commands(options, diagnostic, stopped));
     return diagnostics;
 }
 

@@ -113,12 +113,10 @@ Repaired repair(const Surface& surface, const RepairParameters& parameters,
     progress.report(0.0, "welding");
     weld(mesh, parameters.smallest_feature * mean_side(mesh), report);
     remove_degenerate_and_duplicate(mesh, report);
-    if (mesh.triangles.empty())
-        throw InvalidInput("all triangles are degenerate: there is no surface");
+    if (mesh.triangles.empty()) throw DiagnosedInput({.code = "no-triangle-left"});
     progress.report(0.2, "repairing connectivity");
     restore_manifold(mesh, parameters, report);
-    if (mesh.triangles.empty())
-        throw InvalidInput("all triangles are degenerate: there is no surface");
+    if (mesh.triangles.empty()) throw DiagnosedInput({.code = "no-triangle-left"});
     if (parameters.remove_self_intersections)
         untangle_all(mesh, parameters, progress.part(0.4, 1.0), report);
     report.unused_vertices = mesh.remove_unused_vertices();

@@ -268,9 +268,7 @@ void make_manifold(TriangleSoup& mesh, bool part_rims, RepairReport& report) {
         if (sheets.crossings > 0 && cut_remaining_crossings(mesh)) continue;
         return;
     }
-    throw AlgorithmFailure(
-        "the orientation of the triangles keeps contradicting itself: export the "
-        "surface again, or rebuild it from its image");
+    throw DiagnosedFailure({.code = "orientation-contradicts"});
 }
 
 void face_outward(TriangleSoup& mesh, RepairReport& report) {

@@ -62,6 +62,8 @@ ExtractionParameters extraction_parameters(const Arguments& arguments, bool with
     const bool labels_alone = !parameters.labels.empty() && !parameters.threshold && !with_mask;
     if (labels_alone && !parameters.method) parameters.method = ExtractionMethod::Labels;
     parameters.mask_surface = mask_surface_from(arguments.text("mask_surface"));
+    if (arguments.text("between_slices") == "curved")
+        parameters.between_slices = BetweenSlices::Curved;
     parameters.dilation = static_cast<int>(arguments.integer("dilation"));
     parameters.cleaning = cleaning_from(arguments);
     parameters.resample = arguments.optional_real("resample");

@@ -1,7 +1,9 @@
 #include "workbench/operations/shared/handle_warnings.h"
 
+#include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/wording.h"
+#include "meshing/stamp/separate.h"
 
 namespace vesselbench {
 
@@ -25,13 +27,38 @@ Diagnostic handle_warning(const SurfaceHandle& handle) {
                           .arguments = {{"at", coordinates_argument(handle.centre)}}}}};
 }
 
+namespace {
+
+/// A contact that is wider than the thinner vessel is none of two vessels alone [-].
+constexpr double kWidestContact = 1.05;
+
+/// Two vessels touch at the handle, and can be parted there.
+bool can_be_parted(const Surface& surface, const SurfaceHandle& handle, const Progress& progress) {
+    const SeparateParameters parameters{.at = handle.centre, .gap = mean_edge_length(surface)};
+    try {
+        const SeparateReport report =
+            separate(surface, distance_to(surface), parameters, progress.silent()).report;
+        return report.waist <= kWidestContact &&
+               (report.genus_after < report.genus_before ||
+                report.components_after > report.components_before);
+    } catch (const AlgorithmFailure&) {
+        return false;
+    } catch (const InvalidInput&) {
+        return false;
+    }
+}
+
+}  // namespace
+
 std::vector<Diagnostic> handle_warnings(const Surface& surface, const Progress& progress) {
     const int genus = connectivity(*surface.topology).genus.value_or(0);
     if (genus <= 0) return {};
     if (genus > kMostNamed) return {{.code = "many-handles", .figures = {{"handles", genus}}}};
     std::vector<Diagnostic> warnings;
-    for (const SurfaceHandle& handle : handles_of(surface, progress.silent()))
+    for (const SurfaceHandle& handle : handles_of(surface, progress.silent())) {
         warnings.push_back(handle_warning(handle));
+        if (!can_be_parted(surface, handle, progress)) warnings.back().remedies.clear();
+    }
     return warnings;
 }
 

@@ -13,9 +13,10 @@ namespace vesselbench {
 /// "handle-artefact" if it goes around less than a vessel does, else "handle".
 [[nodiscard]] Diagnostic handle_warning(const SurfaceHandle& handle);
 
-/// One warning for each handle of a vessel's lumen, with its place, width and length around; of
-/// very many, their number. Blood can go around through a handle: true for a ring of vessels, an
-/// artefact where two vessels merely touch in the image. \throw Cancelled if the user cancels
+/// One warning for each handle of a vessel's lumen, with its place, width and length around, and
+/// with `separate` as its remedy where that parts two vessels; of very many, their number. Blood
+/// can go around through a handle: true for a ring of vessels, an artefact where two vessels merely
+/// touch in the image. \throw Cancelled if the user cancels
 [[nodiscard]] std::vector<Diagnostic> handle_warnings(const Surface& surface,
                                                       const Progress& progress);
 
