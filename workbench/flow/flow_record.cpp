@@ -53,7 +53,7 @@ FlowRecord flow_record_of(const fs::path& folder, const VolumeMesh& mesh,
     const FlowSummary summary = flow_summary(surface, parameters);
     FlowRecord record{.provenance = provenance,
                       .mesh = mesh_digest(folder),
-                      .cells = mesh.tetrahedra.size(),
+                      .cells = mesh.cell_count(),
                       .bounds = bounds(mesh.points),
                       .density = parameters.density,
                       .viscosity = viscosity_at_shear(parameters),

@@ -44,7 +44,7 @@ std::optional<ResultFigures> result_figures(const Scene& scene, const Progress& 
                           .mean_triangle = shape.mean,
                           .worst_triangle = shape.min};
     if (!scene.volume_mesh || scene.volume_mesh->tetrahedra.empty()) return figures;
-    figures.cells = scene.volume_mesh->tetrahedra.size();
+    figures.cells = scene.volume_mesh->cell_count();
     figures.smallest_angle =
         std::ranges::min(smallest_dihedral_angles(*scene.volume_mesh, progress));
     return figures;
