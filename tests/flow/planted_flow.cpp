@@ -51,10 +51,10 @@ std::string wall_values(const VolumeMesh& mesh, const PlantedFlow& flow) {
     std::size_t count = 0;
     for (const MeshFace& face : faces) {
         if (face.neighbour != MeshFace::kOutside || face.patch != 0) continue;
-        const auto& [a, b, c] = face.corners;
-        list +=
-            vector_text(flow.wall_shear((mesh.points[a] + mesh.points[b] + mesh.points[c]) / 3.0)) +
-            "\n";
+        Vec3 middle = Vec3::Zero();
+        for (const VertexId corner : face.corners)
+            middle += mesh.points[corner] / static_cast<double>(face.corners.size());
+        list += vector_text(flow.wall_shear(middle)) + "\n";
         ++count;
     }
     return "nonuniform List<vector>\n" + std::to_string(count) + "\n(\n" + list + ")\n";
