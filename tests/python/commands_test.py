@@ -192,7 +192,7 @@ class Models(InFolder):
         Path("cases/b.stl").write_text("garbage")
         batch = vesselbench.batch("cases", "planning", "out", settings={"smooth.iterations": 0}, units="mm", jobs=2)
         self.assertEqual(batch.case("b").state, "failed")
-        self.assertEqual(batch.case("b").failure.code, "bad-input")
+        self.assertEqual(batch.case("b").failure.code, "file-not-read")
         self.assertIn("b", batch.failures[0].cases)
         self.assertIsNone(batch.case("a").failure)
         self.assertEqual(batch.case("a").figures["triangles"], 12)

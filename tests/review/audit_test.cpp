@@ -13,6 +13,7 @@
 #include "tests/support/shapes.h"
 #include "workbench/project/database.h"
 #include "workbench/project/project.h"
+#include "workbench/project/utc_time.h"
 #include "workbench/review/audit_texts.h"
 
 using namespace vesselbench;
@@ -109,9 +110,9 @@ SCENARIO("A reviewer's file convicts a record that was rewritten after it", "[re
     std::string early, late;
     {
         Session session = Session::open(project, options());
-        early = save_verdicts(project, verdicts_on(session, "A. Kern", Verdict::Accept));
+        early = save_verdicts(project, verdicts_on(session, "A. Kern", Verdict::Accept, utc_now()));
         session.apply("bump", {{"at", kTop}, {"reach", 3.0}, {"height", 0.1}});
-        late = save_verdicts(project, verdicts_on(session, "B. Roth", Verdict::Accept));
+        late = save_verdicts(project, verdicts_on(session, "B. Roth", Verdict::Accept, utc_now()));
     }
     const Audit good = audited(project, {early, late});
     CHECK(codes(good).empty());

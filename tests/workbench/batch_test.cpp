@@ -82,7 +82,7 @@ SCENARIO("A batch prepares each case by itself; one that fails stops no other",
     CHECK_FALSE(fs::exists(cohort.folder + "/out/questions.html"));
     THEN("failures are grouped by their codes") {
         REQUIRE(table["failures"].size() == 1);
-        CHECK(table["failures"][0]["code"] == "bad-input");
+        CHECK(table["failures"][0]["code"] == "file-not-read");
         CHECK(table["failures"][0]["cases"] == Json{"damaged", "-code"});
     }
     THEN("the page runs no code of the texts it shows") {

@@ -19,20 +19,22 @@ using Json = nlohmann::ordered_json;
 struct Said {
     std::string time;
     Verdict verdict = Verdict::None;
+    std::string reviewer;  ///< as the name is written
 };
 
 /// An edit with one content, and the newest verdict of each reviewer on it.
 struct JudgedEdit {
     std::string operation;
-    std::map<std::string, Said> by_reviewer;
+    std::map<std::string, Said> by_reviewer;  ///< by compared_name()
 };
 
 /// The project's id, the edit, and edit_hash().
 using EditKey = std::tuple<std::string, EditRef, std::string>;
 using JudgedEdits = std::map<EditKey, JudgedEdit>;
 
-void add(JudgedEdits& edits, const EditKey& key, const std::string& reviewer, Said said) {
-    const auto [found, is_new] = edits[key].by_reviewer.try_emplace(reviewer, said);
+void add(JudgedEdits& edits, const EditKey& key, Said said) {
+    const auto [found, is_new] =
+        edits[key].by_reviewer.try_emplace(compared_name(said.reviewer), said);
     if (!is_new && found->second.time <= said.time) found->second = std::move(said);
 }
 
@@ -45,7 +47,7 @@ JudgedEdits judged_in(const std::filesystem::path& path) {
         for (const EditVerdict& verdict : entered.verdicts.edits)
             if (verdict.verdict != Verdict::None)
                 add(edits, {id, verdict.edit, verdict.hash},
-                    compared_name(entered.verdicts.reviewer), {verdict.time, verdict.verdict});
+                    {verdict.time, verdict.verdict, entered.verdicts.reviewer});
     std::set<EditRef> refs;
     for (const auto& [key, edit] : edits) refs.insert(std::get<EditRef>(key));
     const auto records = project.edits({refs.begin(), refs.end()});
@@ -56,7 +58,7 @@ JudgedEdits judged_in(const std::filesystem::path& path) {
 void merge(JudgedEdits read, JudgedEdits& all) {
     for (auto& [key, edit] : read) {
         all[key].operation = edit.operation;
-        for (auto& [reviewer, said] : edit.by_reviewer) add(all, key, reviewer, std::move(said));
+        for (auto& [reviewer, said] : edit.by_reviewer) add(all, key, std::move(said));
     }
 }
 
@@ -112,11 +114,14 @@ CohortAgreement cohort_agreement(const std::vector<std::filesystem::path>& proje
     }
     std::map<std::string, std::vector<const JudgedEdit*>> by_operation;
     std::vector<const JudgedEdit*> all;
+    std::map<std::string, std::string> names;  // of one who is written in several ways, one
     for (const auto& [key, edit] : judged) {
         by_operation[edit.operation].push_back(&edit);
         all.push_back(&edit);
-        for (const auto& [reviewer, said] : edit.by_reviewer) made.reviewers.insert(reviewer);
+        for (const auto& [reviewer, said] : edit.by_reviewer)
+            names.try_emplace(reviewer, said.reviewer);
     }
+    for (const auto& [compared, name] : names) made.reviewers.insert(name);
     for (const auto& [operation, edits] : by_operation)
         made.operations[operation] = agreement_on(edits);
     made.all = agreement_on(all);

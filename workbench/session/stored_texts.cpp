@@ -5,7 +5,6 @@
 #include "workbench/project/database.h"
 #include "workbench/project/schema.h"
 #include "workbench/session/login_name.h"
-#include "workbench/session/stored_view.h"
 
 namespace vesselbench {
 

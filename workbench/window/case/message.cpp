@@ -5,7 +5,6 @@
 
 #include "workbench/case/diagnostic_words.h"
 #include "workbench/window/case/local_time.h"
-#include "workbench/window/case/rail.h"
 #include "workbench/window/case/readable.h"
 
 namespace vesselbench {
@@ -48,8 +47,9 @@ bool holds_now(const Message& message, const Snapshot& snapshot, const std::stri
     if (message.of_preview) return previewed;
     if (!message.variant.empty() && message.variant != variant) return false;
     if (message.kind != MessageKind::Warning || !message.edit) return true;
-    const LogEntry* entry = find_entry(snapshot, *message.edit);
-    if (entry == nullptr || !is_part_of(entry->edit.place, variant)) return false;
+    const auto entry = std::ranges::find(snapshot.log, *message.edit,
+                                         [](const LogEntry& e) { return e.edit.edit.id; });
+    if (entry == snapshot.log.end() || !is_part_of(entry->edit.place, variant)) return false;
     if (!message.result) return entry->status == EditStatus::Stale;
     return entry->result && entry->result->id == *message.result;
 }

@@ -9,7 +9,7 @@
 #include "geometry/kernel/errors.h"
 #include "workbench/case/json_text.h"
 #include "workbench/case/point_json.h"
-#include "workbench/session/stored_view.h"
+#include "workbench/session/stored_texts.h"
 
 namespace vesselbench {
 
