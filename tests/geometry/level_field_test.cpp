@@ -1,7 +1,5 @@
 #include "geometry/image/level_field.h"
 
-#include "geometry/image/sampled_levels.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -12,6 +10,7 @@
 #include "geometry/image/extract_surface.h"
 #include "geometry/image/grid_blur.h"
 #include "geometry/image/occupancy.h"
+#include "geometry/image/sampled_levels.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/phantoms/phantom.h"

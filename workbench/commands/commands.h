@@ -239,7 +239,7 @@ struct PrepareArguments {
 /// \param refused gets the diagnostics of a preparation that stops, as JSON with commands
 /// \return the exit code: 1 if the flow was to be solved, and has not converged
 int prepare_case(const PrepareArguments& arguments, const Progress& progress,
-                  const std::function<void(std::string)>& refused);
+                 const std::function<void(std::string)>& refused);
 
 struct EndsOptions {
     InputArguments input;               ///< a project as well

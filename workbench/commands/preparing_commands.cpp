@@ -36,7 +36,8 @@ std::string prepare_footer() {
     return input_formats_text() +
            "\nA case is a folder with case.json. --set may be repeated; openfoam.flow=1.5 and the "
            "like\n"
-           "change the flow (flow, outlets, profile, density, viscosity, viscosity_model, iterations ...).\n"
+           "change the flow (flow, outlets, profile, density, viscosity, viscosity_model, "
+           "iterations ...).\n"
            "OUT gets project.vbench, report.json, report.html and\n" +
            product_lines() +
            "\n"

@@ -58,8 +58,9 @@ std::vector<FlowFigure> flow_figures(const FlowResults& results) {
     const ShearFigures& shear = results.shear;
     const auto percentile = [](const char* key, int which, double value) {
         const std::string number = std::to_string(which);
-        return FlowFigure{key, number + (which == 1 ? "st" : "th") + " percentile of wall shear stress", "Pa", value,
-                          number + " % of the wall's area have less"};
+        return FlowFigure{key,
+                          number + (which == 1 ? "st" : "th") + " percentile of wall shear stress",
+                          "Pa", value, number + " % of the wall's area have less"};
     };
     return {
         {"pressure_drop_pa", "pressure drop", "Pa", results.pressure_drop,
