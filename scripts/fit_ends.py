@@ -67,7 +67,8 @@ def main():
         origin = page.origin_lines(results, ridges)
         if options.write_inlet:
             ridges["inlets"] = options.write_inlet
-            origin.append(f"Those are of fits that begin at 0; here a ridge of {options.write_inlet:g} draws to the weights before.")
+            origin.append("Those are of fits that begin at 0; here a ridge of "
+                          f"{options.write_inlet:g} draws to the weights before.")
         write_tables(options, models.Models(taught + measured, ridges, known_inlets(options)), origin)
 
 

@@ -166,7 +166,8 @@ ABOUT = """# Kinds of input that people have
 {written}
 
 The inputs are small and made up; the kind of fault is real. *Before* is what revision a36b1d73 made of them, as the notes beside
-the inputs and the report of that trial have it. tests/workbench/strangers_test.cpp and label_choice_test.cpp expect the same of most.
+the inputs and the report of that trial have it. tests/workbench/strangers_test.cpp and
+label_choice_test.cpp expect the same of most.
 
 """
 

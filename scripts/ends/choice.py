@@ -113,7 +113,6 @@ class Choice:
             if not self.open[j]:
                 self.open[j] = self.doubtful[j] = True
 
-
     def continue_vessels(self, ends, reference):
         behind = {}
         for j, end in enumerate(ends):
@@ -196,7 +195,7 @@ def result_of(case, models, limits=PRESENT):
 
 
 def results_of(judged, limits=PRESENT):
-    """\param judged: each case with models that did not see its patient"""
+    """Each case judged by models that did not see its patient."""
     return [result_of(case, models, limits) for case, models in judged]
 
 
