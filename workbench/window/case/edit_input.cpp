@@ -18,10 +18,6 @@ std::size_t edits_around(const EditPlace& place, const History& history,
     return history.line(place.variant.empty() ? variant : place.variant).size();
 }
 
-std::string step_text(Step step) {
-    return "step " + std::to_string(static_cast<int>(step)) + ", " + title_of(step);
-}
-
 }  // namespace
 
 std::optional<EditInput> input_of(const EditSite& site, const History& history,
@@ -49,11 +45,9 @@ bool is_earlier(const EditInput& input) {
 
 std::string input_text(const EditInput& input, const std::string& operation) {
     const EditSite& site = input.site;
-    std::string text = site.edit ? "The model before " + step_text(site.step) + ": edit " +
-                                       std::to_string(*site.edit) + ", " + readable(operation)
-                                 : "The model after " + step_text(site.step) + ", where " +
-                                       readable(operation) + " is inserted";
-    if (input.has_later) text += ". Later edits are made again";
+    std::string text =
+        site.edit ? "Before edit " + std::to_string(*site.edit) + ", " + readable(operation)
+                  : readable(operation) + " goes in after " + title_of(site.step);
     if (input.has_pending) text += ". Pending edits before it are not in it yet: run them first";
     return text;
 }

@@ -1,5 +1,8 @@
 #include "workbench/window/panels/banners.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <imgui.h>
 
 #include "workbench/window/case/readable.h"
@@ -25,13 +28,17 @@ void step_below(const PanelContext& c, ScreenRect& place, float height) {
     place.y += height + c.ui.grid(1.5F);
 }
 
+/// No wider than its text, at the end, so that little of the model is covered.
 /// \param place whose top the banner takes; then that of the next one
 BannerAnswer draw_next(PanelContext& c, const std::string& name, const Banner& banner,
                        ScreenRect& place) {
-    place.height = height_of(c.ui, banner, place.width);
-    c.ui.item("banner." + name, place);
-    const BannerAnswer answer = draw_banner(c.ui, name, banner, place);
-    step_below(c, place, place.height);
+    ScreenRect own = place;
+    own.width = std::min(std::ceil(width_of(c.ui, banner)), place.width);
+    own.x += place.width - own.width;
+    own.height = height_of(c.ui, banner, own.width);
+    c.ui.item("banner." + name, own);
+    const BannerAnswer answer = draw_banner(c.ui, name, banner, own);
+    step_below(c, place, own.height);
     return answer;
 }
 
@@ -52,10 +59,12 @@ void draw_failure(PanelContext& c, ScreenRect& place) {
 void draw_pending(PanelContext& c, ScreenRect& place) {
     const Rerun rerun = pending_rerun(*c.place.document.snapshot(), c.place.document.variant());
     if (rerun.edits == 0) return;
+    const bool explained = c.place.document.stands_before() != nullptr && c.place.form();
+    const std::string shown_model =
+        std::string(". The model shown is the one before ") + (rerun.edits == 1 ? "it" : "them");
     const Banner banner{icons::kPending,
                         c.ui.theme.accent,
-                        "Pending: " + rerun_text(rerun) + ". The model shown is the one before " +
-                            (rerun.edits == 1 ? "it" : "them"),
+                        "Pending: " + rerun_text(rerun) + (explained ? "" : shown_model),
                         c.place.document.can(RequestKind::Edit) ? "Run" : "",
                         false,
                         true};

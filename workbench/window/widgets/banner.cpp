@@ -17,12 +17,22 @@ float width_of_buttons(const Ui& ui, const Banner& banner) {
     return action + (banner.can_close ? ImGui::GetFrameHeight() + ui.grid(1) : 0);
 }
 
+/// What is left of a banner's width for its text.
+float room_for_text(const Ui& ui, const Banner& banner, float width) {
+    const float icon = ImGui::CalcTextSize(banner.icon).x + ImGui::GetStyle().ItemSpacing.x;
+    return width - 2 * ui.grid(1) - icon - width_of_buttons(ui, banner);
+}
+
 }  // namespace
+
+float width_of(const Ui& ui, const Banner& banner) {
+    constexpr float kRounding = 1;  // [pixels]
+    return ImGui::CalcTextSize(banner.text.c_str()).x - room_for_text(ui, banner, 0) + kRounding;
+}
 
 float height_of(const Ui& ui, const Banner& banner, float width) {
     const ImGuiStyle& style = ImGui::GetStyle();
-    const float icon = ImGui::CalcTextSize(banner.icon).x + style.ItemSpacing.x;
-    const float room = width - 2 * ui.grid(1) - icon - width_of_buttons(ui, banner);
+    const float room = room_for_text(ui, banner, width);
     const std::string lines = broken(banner.text, room);
     const float text = ImGui::CalcTextSize(lines.c_str(), nullptr, false, room).y;
     return text + 2 * style.FramePadding.y + 2 * ui.grid(1);

@@ -18,6 +18,9 @@ struct Banner {
 
 enum class BannerAnswer { None, Action, Close };
 
+/// Wide enough for its text in one line [pixels].
+[[nodiscard]] float width_of(const Ui& ui, const Banner& banner);
+
 /// Tall enough for its text [pixels].
 [[nodiscard]] float height_of(const Ui& ui, const Banner& banner, float width);
 
