@@ -41,6 +41,19 @@ double number_after(const std::string& text, const std::string& words) {
     return at == std::string::npos ? -1.0 : std::stod(text.substr(at + words.size()));
 }
 
+/// \param output of checkMesh, which measures the same mesh
+void check_same_quality(const std::string& output, const VolumeQuality& quality) {
+    CHECK(number_after(output, "Mesh non-orthogonality Max: ") ==
+          Approx(quality.largest_non_orthogonality).epsilon(1e-3));
+    CHECK(number_after(output, " average: ") ==
+          Approx(quality.mean_non_orthogonality).epsilon(1e-3));
+    CHECK(number_after(output, "Max skewness = ") ==
+          Approx(quality.largest_skewness).epsilon(1e-3));
+    CHECK(number_after(output, "Max aspect ratio = ") ==
+          Approx(quality.largest_aspect_ratio).epsilon(1e-3));
+    CHECK(number_after(output, "Total volume = ") == Approx(quality.volume * 1e-9).epsilon(1e-5));
+}
+
 }  // namespace
 
 SCENARIO("the OpenFOAM case has what a solver needs", "[meshing][openfoam]") {
@@ -63,17 +76,7 @@ SCENARIO("the OpenFOAM case has what a solver needs", "[meshing][openfoam]") {
         if (!run) return;
         CAPTURE(run->output);
         CHECK(run->output.find("Mesh OK") != std::string::npos);
-        const VolumeQuality quality = volume_quality(mesh);
-        CHECK(number_after(run->output, "Mesh non-orthogonality Max: ") ==
-              Approx(quality.largest_non_orthogonality).epsilon(1e-3));
-        CHECK(number_after(run->output, " average: ") ==
-              Approx(quality.mean_non_orthogonality).epsilon(1e-3));
-        CHECK(number_after(run->output, "Max skewness = ") ==
-              Approx(quality.largest_skewness).epsilon(1e-3));
-        CHECK(number_after(run->output, "Max aspect ratio = ") ==
-              Approx(quality.largest_aspect_ratio).epsilon(1e-3));
-        CHECK(number_after(run->output, "Total volume = ") ==
-              Approx(quality.volume * 1e-9).epsilon(1e-5));
+        check_same_quality(run->output, volume_quality(mesh));
     }
     THEN("a second export replaces it") {
         CHECK_NOTHROW(write_openfoam_case(folder, mesh, {.flow = 2.0}));
@@ -107,17 +110,7 @@ SCENARIO("checkMesh is content with wall layers, and finds our own figures",
         CHECK(run->output.find("Mesh OK") != std::string::npos);
         CHECK(number_after(run->output, "    prisms:") ==
               static_cast<double>(layered.mesh.prisms.size()));
-        const VolumeQuality& quality = layered.report.quality;
-        CHECK(number_after(run->output, "Mesh non-orthogonality Max: ") ==
-              Approx(quality.largest_non_orthogonality).epsilon(1e-3));
-        CHECK(number_after(run->output, " average: ") ==
-              Approx(quality.mean_non_orthogonality).epsilon(1e-3));
-        CHECK(number_after(run->output, "Max skewness = ") ==
-              Approx(quality.largest_skewness).epsilon(1e-3));
-        CHECK(number_after(run->output, "Max aspect ratio = ") ==
-              Approx(quality.largest_aspect_ratio).epsilon(1e-3));
-        CHECK(number_after(run->output, "Total volume = ") ==
-              Approx(quality.volume * 1e-9).epsilon(1e-5));
+        check_same_quality(run->output, layered.report.quality);
     }
 }
 
