@@ -27,6 +27,7 @@ namespace {
 
 constexpr int kMendRounds = 5;          // of the same around bad places
 constexpr int kMostAttempts = 3;        // to remove bad places, finer there each time
+constexpr int kMostToHold = 6;          // also to come near enough to the source
 constexpr double kLeastQuality = 0.36;  // of 1 - skewness and radius ratio; solvers want 0.35
 constexpr double kFiner = 0.6;
 
@@ -195,20 +196,47 @@ Surface parted(const Surface& source, const Remesher& remesher, const Surface& r
     refuse_crossing(source, result);
 }
 
-Surface remeshed_until_sound(const Surface& surface, std::vector<double> sizes, double gradation,
+/// What has to be found in a result, or edges become shorter where it is not.
+struct Aims {
+    double gradation = 1.5;
+    double held = 0.0;  ///< the surface stays this close to its source [mm]; 0: no matter
+};
+
+/// Shortens the edges where the result is off by more than is held, unless that makes too many
+/// triangles.
+/// \return whether it did; the report says where it is off
+bool refine_to_hold(const Surface& source, const Surface& result, const Aims& aims,
+                    std::vector<double>& sizes, RemeshReport& report, const Progress& cancel) {
+    report.beyond_resolution.reset();
+    if (!(aims.held > 0.0)) return false;
+    std::vector<double> finer = sizes;
+    const LargestDeviation off = refine_where_off(source, result, aims.held, finer, cancel);
+    if (off.distance <= aims.held) return false;
+    report.beyond_resolution = off;
+    limit_slope(source, slope_of(aims.gradation), finer, cancel);
+    if (expected_count(source, finer) > kMostChosen) return false;
+    sizes = std::move(finer);
+    return true;
+}
+
+Surface remeshed_until_sound(const Surface& surface, std::vector<double> sizes, const Aims& aims,
                              RemeshReport& report, const Progress& progress) {
     check_count(surface, sizes, report.edge);
-    constexpr double kFirst = 0.7, kLast = 0.95, kMore = (kLast - kFirst) / kMostAttempts;
+    const int attempts = aims.held > 0.0 ? kMostToHold : kMostAttempts;
+    constexpr double kFirst = 0.7, kLast = 0.95;
+    const double more = (kLast - kFirst) / attempts;
     Remesher remesher(surface, target_lengths(sizes), surface, progress);
     Surface result = remeshed(remesher, 0, progress.part(0.0, kFirst));
-    for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
+    for (int attempt = 0; attempt < attempts; ++attempt) {
         const Positions places = bad_places(result, progress.silent());
-        if (places.empty()) return result;
-        refine(surface, places, gradation, sizes);
+        const bool finer = refine_to_hold(surface, result, aims, sizes, report, progress.silent());
+        if (places.empty() && !finer) return result;
+        if (!places.empty()) refine(surface, places, aims.gradation, sizes);
         remesher.set_sizes(target_lengths(sizes));
-        const double from = kFirst + attempt * kMore;
-        result = remeshed(remesher, kRemeshRounds - kMendRounds, progress.part(from, from + kMore));
+        const double from = kFirst + attempt * more;
+        result = remeshed(remesher, kRemeshRounds - kMendRounds, progress.part(from, from + more));
     }
+    refine_to_hold(surface, result, aims, sizes, report, progress.silent());
     return parted(surface, remesher, result, report, progress.part(kLast, 1.0));
 }
 
@@ -338,14 +366,15 @@ std::vector<double> graded_sizes(const Surface& surface, const RemeshParameters&
 Surface graded(const Surface& surface, const RemeshParameters& parameters, Decided& decided,
                const Progress& progress) {
     std::vector<double> sizes = graded_sizes(surface, parameters, decided, progress.part(0.0, 0.2));
-    return remeshed_until_sound(surface, std::move(sizes), parameters.gradation, decided.report,
+    const Aims aims{parameters.gradation, parameters.hold_resolution ? parameters.resolution : 0.0};
+    return remeshed_until_sound(surface, std::move(sizes), aims, decided.report,
                                 progress.part(0.2, 1.0));
 }
 
 Surface uniform(const Surface& surface, RemeshReport& report, double gradation,
                 const Progress& progress) {
     return remeshed_until_sound(surface, std::vector<double>(surface.vertex_count(), report.edge),
-                                gradation, report, progress);
+                                {.gradation = gradation}, report, progress);
 }
 
 /// What is left of a vessel that is as thin as its edges is no vessel.

@@ -6,6 +6,7 @@
 #include "geometry/kernel/surface.h"
 #include "geometry/kernel/triangle_shape.h"
 #include "geometry/vessel/centerlines/centerline_graph.h"
+#include "meshing/remeshing/held_resolution.h"
 
 namespace vesselbench {
 
@@ -25,6 +26,8 @@ struct RemeshParameters {
     std::optional<double> cells = {};
     /// Graded, for prints: longer edges where the surface stays this close [mm]; 0: no
     double resolution = 0.0;
+    /// With `resolution`: edges become shorter where the surface would be off by more.
+    bool hold_resolution = false;
 };
 
 /// Decisions and results of remeshing.
@@ -42,6 +45,8 @@ struct RemeshReport {
     /// there, and the surface around remeshed again; and the place of the first [mm].
     std::size_t crossings_parted = 0;
     Vec3 crossing = Vec3::Zero();
+    /// With `hold_resolution`, where the surface is off by more in spite of shorter edges.
+    std::optional<LargestDeviation> beyond_resolution = {};
 };
 
 struct Remeshed {

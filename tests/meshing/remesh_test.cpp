@@ -31,6 +31,15 @@ void check_quality(const RemeshReport& report) {
     CHECK(report.caps.equiangle_skewness.mean < 0.2);
 }
 
+/// Between a surface and what was made of it, at the vertices of both [mm].
+double largest_distance(const Surface& source, const Surface& result) {
+    double largest = 0.0;
+    for (const auto& [from, to] : {std::pair{&source, &result}, {&result, &source}})
+        for (const SurfacePoint& nearest : SurfaceDistance(*to).closest_points(from->points()))
+            largest = std::max(largest, nearest.distance);
+    return largest;
+}
+
 /// A ball of radius 5 mm, dented from above until the dent's tip is this far from the wall below.
 Surface dented(double gap) {
     return mapped(icosphere(5.0, 5), [&](const Vec3& p) {
@@ -222,14 +231,28 @@ SCENARIO("A print has the triangles that its resolution needs", "[meshing][remes
     check_quality(print.report);
     CHECK(2 * print.report.triangles_after < usual.report.triangles_after);
     CHECK(print.report.triangles_after < fine.report.triangles_after);
-    const SurfaceDistance to_print(print.surface), to_tube(tube);
-    double largest = 0.0;
-    for (const Vec3& p : tube.points())
-        largest = std::max(largest, to_print.closest_point(p).distance);
-    for (const Vec3& p : print.surface.points())
-        largest = std::max(largest, to_tube.closest_point(p).distance);
-    CHECK(largest < 0.1);
+    CHECK(largest_distance(tube, print.surface) < 0.1);
     CHECK(volume(print.surface) == Approx(volume(tube)).epsilon(0.01));
+}
+
+SCENARIO("A print's resolution is held where the wall is finer than its curvature tells",
+         "[meshing][remesh]") {
+    // Ridges across the tube, which are smoothed away where the wall's curvature is measured.
+    const Surface ridged = mapped(fine_tube(3.0, 20.0, 240), [](const Vec3& p) {
+        const double factor = 1.0 + 0.08 * std::exp(-std::pow(std::remainder(p.z(), 5.0) / 0.2, 2));
+        return Vec3(factor * p.x(), factor * p.y(), p.z());
+    });
+    const Remeshed plain = remesh(ridged, {.resolution = 0.1}),
+                   held = remesh(ridged, {.resolution = 0.1, .hold_resolution = true});
+    CHECK(largest_distance(ridged, plain.surface) > 0.12);
+    CHECK(largest_distance(ridged, held.surface) <= 0.1);
+    CHECK_FALSE(held.report.beyond_resolution);
+    check_sound(held.surface, true);
+    CHECK(held.report.wall.radius_ratio.min >= 0.35);
+    CHECK(held.report.triangles_after < 6 * plain.report.triangles_after);
+
+    const Remeshed none = remesh(ridged, {.hold_resolution = true});
+    CHECK(none.surface.points() == remesh(ridged).surface.points());
 }
 
 SCENARIO("Remeshing reports its progress, which never goes back", "[meshing][remesh]") {

@@ -12,7 +12,8 @@ std::span<const Purpose> purposes() {
     static const std::vector<Purpose> table = {
         {.name = "cfd",
          .title = "Model for flow simulation",
-         .help = "flow simulation (cfd)",
+         .words = {"flow"},
+         .help = "flow simulation (cfd, or flow)",
          .summary = "Closed, capped, remeshed, with tetrahedra",
          .products = {"volume.vtu", "volume.msh", "openfoam"},
          .result = "CFD case",
@@ -21,7 +22,8 @@ std::span<const Purpose> purposes() {
          .relevance = {'+', '-', '+', '+', '+', '+'}},
         {.name = "rp",
          .title = "Model for printing",
-         .help = "printing (rp)",
+         .words = {"print", "printing"},
+         .help = "printing (rp, or print)",
          .summary = "Watertight, checked for thin places",
          .products = {"print.stl", "print.3mf"},
          .result = "print model",
@@ -29,11 +31,13 @@ std::span<const Purpose> purposes() {
          .relevance = {'+', '-', '+', 'o', '-', '-'}},
         {.name = "planning",
          .title = "Model for treatment planning",
+         .words = {},
          .help = "pictures\n(planning: keeps raw triangles)",
          .summary = "Smooth surface with its own triangles",
          .relevance = {'+', '+', '+', 'o', '-', '-'}},
         {.name = "simulation",
          .title = "Model for surgery simulation",
+         .words = {},
          .help = "surgery simulation (simulation)",
          .summary = "Smooth, remeshed surface",
          .relevance = {'-', 'o', '+', 'o', '+', '+'}}};
@@ -44,6 +48,12 @@ std::vector<std::string> purpose_names() {
     std::vector<std::string> names;
     for (const Purpose& purpose : purposes()) names.push_back(purpose.name);
     return names;
+}
+
+std::string purpose_name(const std::string& word) {
+    for (const Purpose& purpose : purposes())
+        if (std::ranges::count(purpose.words, word) > 0) return purpose.name;
+    return word;
 }
 
 std::string model_title(const std::string& variant) {

@@ -11,7 +11,8 @@ namespace vesselbench {
 struct Purpose {
     std::string name;                        ///< "cfd"
     std::string title;                       ///< of the report: "Model for flow simulation"
-    std::string help;                        ///< with its name: "flow simulation (cfd)"
+    std::vector<std::string> words;          ///< `prepare --for` takes them too: "flow"
+    std::string help;                        ///< with its name and words: "flow simulation (cfd)"
     std::string summary;                     ///< what is special about the model, one line
     std::vector<std::string> products = {};  ///< file names, besides those of the surface
     std::string result = "surface";          ///< what the user asked for
@@ -26,6 +27,9 @@ struct Purpose {
 [[nodiscard]] std::span<const Purpose> purposes();
 
 [[nodiscard]] std::vector<std::string> purpose_names();
+
+/// The name of the purpose that has this name or word; what is neither, as it is.
+[[nodiscard]] std::string purpose_name(const std::string& word);
 
 /// The model that a variant is: a purpose's title; a variant of the user's is called by its name.
 [[nodiscard]] std::string model_title(const std::string& variant);

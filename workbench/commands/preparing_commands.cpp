@@ -187,6 +187,7 @@ void add_new(CommandLine& line) {
 void add_purpose(CLI::App& command, std::string& purpose) {
     command.add_option("--for", purpose, "Purpose of the model: " + purposes_help())
         ->required()
+        ->transform(purpose_name)
         ->type_name(joined(purpose_names(), "|"));
 }
 

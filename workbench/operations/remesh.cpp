@@ -41,7 +41,8 @@ RemeshParameters parameters_from(const Arguments& arguments) {
             .max_edge = arguments.optional_real("max_edge"),
             .gradation = arguments.real("gradation"),
             .cells = arguments.optional_real("cells"),
-            .resolution = arguments.real("print_resolution")};
+            .resolution = arguments.real("print_resolution"),
+            .hold_resolution = arguments.flag("hold_resolution")};
 }
 
 Report report_from(const RemeshReport& figures, const std::optional<FeatureRegions>& features) {
@@ -108,6 +109,11 @@ void add_warnings(const RemeshReport& figures, Outcome& outcome) {
     if (figures.crossings_parted > 0)
         outcome.warnings.push_back(
             {.code = "crossings-parted", .place = figures.crossing, .remedies = another_edge});
+    if (const auto& off = figures.beyond_resolution)
+        outcome.warnings.push_back({.code = "beyond-resolution",
+                                    .place = off->place,
+                                    .figures = {{"off_mm", off->distance}},
+                                    .remedies = another_edge});
     if (std::abs(figures.volume_change) > kNoticedVolume)
         outcome.warnings.push_back({.code = "edges-coarse",
                                     .figures = {{"edge_mm", figures.edge},
@@ -310,6 +316,13 @@ std::vector<Parameter> other_parameters() {
          .minimum = 0.0,
          .maximum = 10.0,
          .only_with = when_graded(),
+         .use = Use::Rare},
+        {.name = "hold_resolution",
+         .type = ParameterType::Flag,
+         .default_value = false,
+         .help = "edges become shorter where the surface would be off by more than "
+                 "print_resolution; models for printing use it",
+         .only_with = Condition{"print_resolution"},
          .use = Use::Rare}};
 }
 
