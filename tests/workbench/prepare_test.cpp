@@ -416,6 +416,29 @@ SCENARIO("A phantom becomes a CFD case", "[workbench][prepare]") {
     }
 }
 
+SCENARIO("A model is finer around a place", "[workbench][prepare]") {
+    const std::string out = temporary_folder() + "/finer";
+    const Vec3 place(6.0, 3.0, 20.0);  // in the middle of the tube
+    const ProgramRun made = run({"prepare", tube(), "--for", "printing", "--refine",
+                                 "6,3,20:2.5:0.15", "--out", out, "--json"});
+    INFO(made.err);
+    REQUIRE(made.exit_code == 0);
+    const Surface surface = read_surface(out + "/surface.vtp").surface;
+    const auto mean_edge_at = [&](double nearest, double farthest) {
+        double sum = 0.0, count = 0.0;
+        for (const auto& [a, b, c] : surface.triangles()) {
+            const Vec3& p = surface.points()[a];
+            if (const double away = (p - place).norm(); away < nearest || away > farthest) continue;
+            sum += (surface.points()[b] - p).norm();
+            count += 1.0;
+        }
+        return sum / count;
+    };
+    CHECK(mean_edge_at(0.0, 2.3) == Approx(0.15).epsilon(0.25));
+    CHECK(mean_edge_at(6.0, 12.0) > 0.3);
+    CHECK(Json::parse(text_of(out + "/report.json"))["purpose"] == "rp");
+}
+
 SCENARIO("A phantom becomes a print model", "[workbench][prepare]") {
     const std::string out = temporary_folder() + "/rp";
     const ProgramRun result = run({"prepare", tube(), "--for", "rp", "--out", out});
@@ -909,7 +932,9 @@ SCENARIO("Wrong arguments of prepare are rejected before anything is written",
         CHECK(names_in(folder).empty());
     };
     refused({tube(), "--for", "planing"}, "planning");
-    refused({tube(), "--for", "printing"}, "cfd, rp, planning");
+    refused({tube(), "--for", "printed"}, "cfd, rp, planning");
+    refused({tube(), "--for", "cfd", "--refine", "1,2,3:4"}, "x,y,z:radius:edge");
+    refused({tube(), "--for", "cfd", "--refine", "1,2,3:4:-1"}, "edge");
     refused({tube()}, "--for");
     refused({tube(), "--for", "cfd", "--set", "smooth.lamda=1"}, "did you mean 'lambda'");
     refused({tube(), "--for", "cfd", "--set", "openfoam.flow=-1"}, "'flow'");

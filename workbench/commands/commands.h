@@ -221,6 +221,7 @@ struct PrepareArguments {
     std::string recipe;
     std::vector<std::string> settings;  ///< "operation.parameter=value"
     EndArguments ends;
+    std::vector<std::string> refinements;  ///< "x,y,z:radius:edge"
     std::string out;
     std::string author;  ///< empty: the login name
     std::string name;    ///< of the input in the report; empty: the file's

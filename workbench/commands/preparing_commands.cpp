@@ -141,6 +141,12 @@ void add_prepare(CommandLine& line) {
     command.footer(prepare_footer());
     add_purpose(command, options->purpose);
     add_case_options(command, *options);
+    command
+        .add_option("--refine", options->refinements,
+                    "Finer triangles around a place, and finer cells behind them: "
+                    "x,y,z:radius:edge in mm; may be repeated")
+        ->allow_extra_args(false)
+        ->type_name("X,Y,Z:R:E");
     command.add_flag(
         "--resume", options->resume,
         "Continue in the folder's project with the edits of the recipe that are missing");

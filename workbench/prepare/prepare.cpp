@@ -26,6 +26,7 @@
 #include "workbench/prepare/prepared_purposes.h"
 #include "workbench/prepare/recipe_document.h"
 #include "workbench/prepare/recipe_warnings.h"
+#include "workbench/prepare/refinements.h"
 #include "workbench/prepare/refusal_report.h"
 #include "workbench/prepare/result_folder.h"
 #include "workbench/prepare/resume.h"
@@ -84,6 +85,7 @@ std::optional<RecipeDocument> given_recipe(const PrepareOptions& options) {
 Recipe recipe_for(const PrepareOptions& options, const Input& input, const Json& json) {
     Recipe recipe = input_recipe(input, options.purpose, json);
     set_arguments(recipe, options.arguments);
+    add_entries(recipe, refinements(options.refinements));
     // No entry runs if a later one cannot.
     for (const RecipeEntry& entry : recipe) check_complete(entry.given);
     return recipe;

@@ -16,6 +16,7 @@ struct PrepareOptions {
     std::string purpose;  ///< its name, see purposes()
     std::string recipe;   ///< a bundled one or a file; empty: the case's own, or the default
     std::vector<std::string> arguments;  ///< "operation.parameter=value"
+    std::vector<std::string> refinements;  ///< "x,y,z:radius:edge", as refinements() reads them
     std::filesystem::path out;           ///< folder of the results
     bool resume = false;                 ///< goes on in the folder's project
     std::string author;                  ///< of the edits; empty: the login name
