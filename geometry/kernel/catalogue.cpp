@@ -402,7 +402,8 @@ constexpr CatalogueText kTexts[] = {
      "walls that almost touch near {place} crossed after remeshing and were separated there: the "
      "wall may have moved; separate the walls or use a smaller {fix} if that part matters"},
     {"beyond-resolution",
-     "the surface is off by up to {off_mm} mm, in spite of shorter edges there ({place}); a smaller "
+     "the surface is off by up to {off_mm} mm, in spite of shorter edges there ({place}); a "
+     "smaller "
      "{fix} may bring it nearer"},
     {"opening-lost",
      "edges of {edge_mm} mm are too coarse for the opening {opening}, {diameter_mm} mm wide, which "

@@ -448,6 +448,13 @@ SCENARIO("A phantom becomes a print model", "[workbench][prepare]") {
                                  "report.json", "surface.stl", "surface.vtp"});
     const Json report = Json::parse(text_of(out + "/report.json"));
     CHECK(report["print"].is_object());
+    std::string last = "print:       " + report["print"]["headline"].get<std::string>() + "\n";
+    CHECK_THAT(result.out, Catch::Matchers::EndsWith(last));
+    for (const Json& row : report["requirements"]) {
+        const std::string line = "not met:     " + row["requirement"].get<std::string>() + ": " +
+                                 row["limit"].get<std::string>();
+        CHECK((result.out.find(line) != std::string::npos) == (row["judgement"] == "not met"));
+    }
     for (const Json& step : report["steps"]) CHECK(step["operation"] != "extrude-opening");
     CHECK(text_of(out + "/report.html").find("openfoam") == std::string::npos);
     CHECK_THAT(text_of(out + "/report.html"), Contains("Check of the printable model."));

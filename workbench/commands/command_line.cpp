@@ -82,7 +82,8 @@ void add_window(CommandLine& line) {
     CLI::App& command =
         add_command(line, "open", "Open a project, a surface, an image or a case in the window",
                     [&line] { return show_window(line), 0; });
-    command.add_option("FILE", line.window.file, "What to open; without it, the window asks")->type_name("");
+    command.add_option("FILE", line.window.file, "What to open; without it, the window asks")
+        ->type_name("");
     line.app
         .add_option("--screenshot", line.window.screenshot,
                     "Draw the window once to this file (.png), without a display")

@@ -52,17 +52,23 @@ Json prepared_json(const PrepareArguments& arguments, const PrepareSummary& made
             {"project", kProjectFile},
             {"reports", {"report.json", "report.html"}},
             {"products", made.products},
+            {"not_met", made.not_met},
+            {"print", made.print.empty() ? Json() : Json(made.print)},
             {"warnings", warnings},
             {"diagnostics", diagnostics_json(made.warnings)}};
 }
 
-void print_prepared(const PrepareArguments& arguments, const Purpose& purpose) {
+/// The paths, then what the model misses, and last the verdict on a print.
+void print_prepared(const PrepareArguments& arguments, const Purpose& purpose,
+                    const PrepareSummary& made) {
     const std::filesystem::path out = arguments.out;
     std::string what = purpose.result + ":";
     what.resize(std::string("report:      ").size(), ' ');
     std::cout << what << (out / purpose.result_file).string()
               << "\nreport:      " << (out / "report.html").string()
               << "\nproject:     " << (out / kProjectFile).string() << "\n";
+    for (const std::string& text : made.not_met) std::cout << "not met:     " << text << "\n";
+    if (!made.print.empty()) std::cout << "print:       " << made.print << "\n";
 }
 
 /// The rest of `prepare --run`. \return the exit code
@@ -153,7 +159,7 @@ int prepare_case(const PrepareArguments& arguments, const Progress& progress,
                 tell, progress.part(0.0, arguments.run ? kPreparing : 1.0));
     const Json document = prepared_json(arguments, made);
     if (!arguments.json)
-        print_prepared(arguments, purpose);
+        print_prepared(arguments, purpose, made);
     else if (!arguments.run)
         std::cout << text_from_json(document, 2) << "\n";
     return arguments.run ? solve_prepared(arguments, document, progress.part(kPreparing, 1.0)) : 0;

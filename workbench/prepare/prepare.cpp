@@ -32,6 +32,7 @@
 #include "workbench/prepare/resume.h"
 #include "workbench/prepare/resumed_recipe.h"
 #include "workbench/prepare/vessel_question.h"
+#include "workbench/report/requirements.h"
 #include "workbench/review/provenance.h"
 #include "workbench/session/export_record.h"
 #include "workbench/session/source_counterpart.h"
@@ -240,6 +241,20 @@ void fold_log(const Session& session) {
     }
 }
 
+/// "smoothness: at most 1 % of ..."
+std::vector<std::string> missed_requirements(const Json& report) {
+    std::vector<std::string> texts;
+    for (const Json& row : report.value("requirements", Json::array()))
+        if (row.at("judgement") == to_string(Judgement::NotMet))
+            texts.push_back(row.at("requirement").get<std::string>() + ": " +
+                            row.at("limit").get<std::string>());
+    return texts;
+}
+
+std::string print_verdict(const Json& report) {
+    return report.value("print", Json::object()).value("headline", "");
+}
+
 PrepareSummary write_results(Session& session, const PrepareOptions& options, PreparedCase prepared,
                              const Teller& tell, const Progress& progress) {
     const std::vector<std::string> names = result_names(options.purpose);
@@ -259,7 +274,8 @@ PrepareSummary write_results(Session& session, const PrepareOptions& options, Pr
         record_export(session, options.out / product, options.purpose);
     fold_log(session);
     tell_remaining(prepared.earlier_results, tell);
-    return {prepared.products, report.warnings};
+    return {prepared.products, report.warnings, missed_requirements(report.document),
+            print_verdict(report.document)};
 }
 
 /// report.json of a preparation that stopped, and how to go on.

@@ -14,6 +14,8 @@ namespace vesselbench {
 struct PrepareSummary {
     std::vector<std::string> products;  ///< names of the files and folders written
     std::vector<Diagnostic> warnings;   ///< all, as in report.json
+    std::vector<std::string> not_met;   ///< requirements that the model misses, with their limits
+    std::string print;                  ///< of a print: whether it is printable, or why not
 };
 
 /// Turns the input into a CFD or print model: a project with one edit per entry of the recipe,

@@ -39,11 +39,10 @@ Recipe refinements(std::span<const std::string> texts) {
 
 void add_entries(Recipe& recipe, const Recipe& entries) {
     for (const RecipeEntry& entry : entries)
-        recipe.insert(std::ranges::find_if(recipe,
-                                           [&](const RecipeEntry& other) {
-                                               return step_of(other) > step_of(entry);
-                                           }),
-                      entry);
+        recipe.insert(
+            std::ranges::find_if(
+                recipe, [&](const RecipeEntry& other) { return step_of(other) > step_of(entry); }),
+            entry);
 }
 
 }  // namespace vesselbench
