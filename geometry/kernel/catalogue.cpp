@@ -906,6 +906,10 @@ constexpr CatalogueText kTexts[] = {
     {"record-rewritten",
      "{file}: {reviewer} saw a record with the head {head}, which this one never had: it was "
      "rewritten {where}"},
+    {"record-cut-off",
+     "{file}: {reviewer} saw entry {number} of the record, which ends with entry {last} now: its "
+     "end "
+     "was cut off"},
     {"record-other-project",
      "{file}: {reviewer} reviewed {name}, a project with another id: it is another project, or the "
      "record of this one was begun anew"},

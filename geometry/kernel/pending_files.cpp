@@ -32,7 +32,8 @@ fs::path folder_of(const fs::path& path) {
     if (cause == ENOENT && !fs::exists(folder_of(path), ignored))
         throw IoError(text + ": its folder '" + bare_name(folder_of(path)) + "' does not exist");
     if (cause != 0) text += std::string(": ") + std::strerror(cause);
-    if (cause == ENOSPC || cause == EFBIG) text += "; free some space or choose another folder";
+    if (cause == ENOSPC) text += "; free some space or choose another folder";
+    if (cause == EFBIG) text += "; raise the limit on the size of files (ulimit -f)";
     throw IoError(text);
 }
 

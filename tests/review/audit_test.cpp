@@ -15,6 +15,8 @@
 #include "workbench/project/project.h"
 #include "workbench/project/utc_time.h"
 #include "workbench/review/audit_texts.h"
+#include "workbench/review/verdict_import.h"
+#include "workbench/review/witness.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;
@@ -148,6 +150,68 @@ SCENARIO("A reviewer's file convicts a record that was rewritten after it", "[re
         const Audit bad = audited(project, {early});
         CHECK(codes(bad) == std::vector<std::string>{"record-other-project"});
         CHECK(says(bad.unverified, "the record begins with what was found"));
+    }
+}
+
+SCENARIO("A line of a lab book, or an older copy, finds an end that was cut off",
+         "[review][audit]") {
+    const std::string project = reviewed_project(),
+                      copy = std::filesystem::path(project).parent_path() / "copy.vbench";
+    {
+        Session session = Session::open(project, options());
+        import_verdicts(session,
+                        save_verdicts(project, verdicts_on(session, "A. Kern", Verdict::Reject)));
+    }
+    std::filesystem::copy_file(project, copy);
+    const Audit before = audited(project);
+    const std::string line = witness_line(before.record, "2026-01-01T00:00:00Z");
+    CHECK_THAT(line, Contains("vesselbench-witness project=") && Contains("entries=8") &&
+                         Contains("head=" + before.record.entries.back().hash));
+    const auto codes_against = [&](const std::string& witness) {
+        return codes(audited(project, {witness}));
+    };
+    const std::string book = project + ".txt";
+    write_file(book, "page 7\nJan 1, vessel of case 7: " + line + "\n");
+    for (const std::string& witness : {line, book, copy}) {
+        CHECK(codes_against(witness).empty());
+        CHECK(says(audited(project, {witness}).verified, "saw the record up to entry 8"));
+    }
+    THEN("sixteen digits of the head do, fewer do not") {
+        const std::size_t head = line.find("head=") + 5;
+        CHECK(codes_against(line.substr(0, head + 16) + line.substr(head + 64)).empty());
+        CHECK_THROWS_WITH(codes_against(line.substr(0, head + 15) + line.substr(head + 64)),
+                          Contains("at least 16 digits"));
+        CHECK_THROWS_AS(codes_against("vesselbench-witness of nothing"), InvalidInput);
+    }
+    WHEN("the last entry is cut off with what it recorded, and the head is written again") {
+        Database(project, OpenMode::Write)
+            .run(
+                "DELETE FROM verdicts; DELETE FROM chain WHERE number = 8; UPDATE meta SET value ="
+                " (SELECT hash FROM chain WHERE number = 7) WHERE name = 'chain head'");
+        CHECK(codes(audited(project)).empty());  // by itself it is sound
+        for (const std::string& witness : {line, book, copy}) {
+            const Audit bad = audited(project, {witness});
+            CHECK(codes(bad) == std::vector<std::string>{"record-cut-off"});
+            CHECK(bad.findings.at(0).words.at("number") == "8");
+        }
+        THEN("it stays so when the record has grown again") {
+            {
+                Session session = Session::open(project, options());
+                session.undo();
+            }
+            for (const std::string& witness : {line, book, copy})
+                CHECK(codes_against(witness) == std::vector<std::string>{"record-rewritten"});
+            CHECK(audited(project, {copy}).findings.at(0).words.at("where") == "after entry 7");
+        }
+    }
+    WHEN("it is rewritten, the copy says from where on") {
+        rewrite(project, 5);
+        CHECK(audited(project, {line}).findings.at(0).words.at("file") == "the line");
+        CHECK(audited(project, {copy}).findings.at(0).words.at("where") == "after entry 4");
+    }
+    WHEN("the copy contradicts its own record, it is no witness") {
+        Database(copy, OpenMode::Write).run("UPDATE edits SET author = 'Eve'");
+        CHECK_THROWS_WITH(codes_against(copy), Contains("copy.vbench is no witness"));
     }
 }
 

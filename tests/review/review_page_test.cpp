@@ -1,7 +1,9 @@
 #include "workbench/review/review_page.h"
 
 #include <algorithm>
+#include <stop_token>
 #include <string>
+#include <vector>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -57,6 +59,23 @@ SCENARIO("The page's manifest has every edit with its surfaces, arguments and fi
         CHECK(bump["radius"].get<double>() == Approx(10.0).epsilon(0.1));
         CHECK(bump["changed_box"].size() == 6);
     }
+}
+
+SCENARIO("Comparing many edits says how far it is, and can be cancelled between two of them",
+         "[review]") {
+    Session session = opened(reviewed_project());
+    const auto log = session.log(kDefaultVariant);
+    std::vector<double> fractions;
+    std::stop_source stop;
+    const Progress progress(
+        [&](double fraction, std::string_view what) {
+            fractions.push_back(fraction);
+            if (what.starts_with("comparing")) stop.request_stop();
+        },
+        stop.get_token());
+    CHECK_THROWS_AS(page_models(session, log, find_test_operation, {}, progress), Cancelled);
+    CHECK(fractions.size() == log.size() + 1);
+    CHECK(std::ranges::is_sorted(fractions));
 }
 
 SCENARIO("What deserves a look comes first", "[review]") {

@@ -10,13 +10,18 @@
 #include "tests/review/reviewed_session.h"
 #include "tests/session/small_operations.h"
 #include "tests/session/sphere_session.h"
+#include "tests/support/program.h"
 #include "tests/support/shapes.h"
 #include "tests/support/signing.h"
+#include "workbench/project/chain.h"
 #include "workbench/project/database.h"
 #include "workbench/project/project.h"
 #include "workbench/project/record_check.h"
 #include "workbench/review/audit.h"
 #include "workbench/review/audit_texts.h"
+#include "workbench/review/retired_keys.h"
+#include "workbench/review/signing_key.h"
+#include "workbench/review/signing_keys.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;
@@ -304,5 +309,50 @@ SCENARIO("Signed verdicts are entered as they were signed", "[review][signature]
                                        entered_verdicts(session.project(), review.signers));
         CHECK(found.edits.at(0).verdicts.size() == 1);
         CHECK(found.edits.at(0).verdicts[0].signature.signer == kKern);
+    }
+}
+
+SCENARIO("A lost key is retired by an entry of its own", "[review][signature]") {
+    if (!can_sign()) return;
+    const SignedReview review;
+    Session session = Session::open(review.project, options());
+    import_verdicts(session, review.file);
+    const std::string key = key_fingerprint(signing_key(signature_beside(review.file)));
+    CHECK_THAT(run_program("ssh-keygen", {"-l", "-f", review.key + ".pub"}).out, Contains(key));
+    const auto entered = [&] { return entered_verdicts(session.project(), review.signers); };
+    const auto keys = [&] { return signing_keys(entered(), retired_keys(session.project())); };
+    REQUIRE(keys().size() == 1);
+    CHECK(keys()[0].fingerprint == key);
+    CHECK(keys()[0].reviewers == std::vector<std::string>{"A. Kern"});
+    CHECK(keys()[0].principals == std::vector<std::string>{kKern});
+    CHECK_FALSE(keys()[0].retired);
+    retire_key(session, key, "lost on the way home");
+    THEN("the record has it, and lists it") {
+        const ChainEntry last = session.project().record_entries().back();
+        CHECK(last.kind == "key-retired");
+        CHECK(last.subject == key);
+        CHECK(last.author == "Ada");
+        CHECK_THAT(entry_words(last), Contains("lost on the way home"));
+        REQUIRE(keys().at(0).retired);
+        CHECK(keys()[0].retired->reason == "lost on the way home");
+        CHECK(audited(review.project, review.signers).findings.empty());
+    }
+    THEN("what it signed before stays as it is") {
+        CHECK(entered().at(0).signature.state == SignatureState::Verified);
+    }
+    THEN("what it signs from now on is refused") {
+        const std::string file =
+            save_verdicts(review.project, verdicts_on(session, "A. Kern", Verdict::Reject));
+        sign(file, review.key);
+        CHECK_THROWS_WITH(import_verdicts(session, file), Contains("retired on") &&
+                                                              Contains("lost on the way home") &&
+                                                              Contains("another key"));
+        sign(file, new_signing_key());
+        import_verdicts(session, file);
+        CHECK(session.project().verdicts().size() == 2);
+    }
+    THEN("what is no key, or retired already, is refused") {
+        CHECK_THROWS_AS(retire_key(session, "A. Kern", "lost"), UsageError);
+        CHECK_THROWS_WITH(retire_key(session, key, "again"), Contains("retired already"));
     }
 }

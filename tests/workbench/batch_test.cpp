@@ -59,6 +59,16 @@ struct Cohort {
     }
 };
 
+/// Locks, marks and unfinished files below a batch's folder.
+Names leftovers(const std::string& out) {
+    Names found;
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(out))
+        if (const std::string name = entry.path().filename().string();
+            name.ends_with("-lock") || name == "batch-running" || name.starts_with(".partial-"))
+            found.push_back(name);
+    return found;
+}
+
 Json printed(const ProgramRun& run) {
     INFO(run.err);
     return Json::parse(run.out);
@@ -132,6 +142,35 @@ SCENARIO("A batch that is killed at any moment goes on to the same table", "[wor
     CHECK(cohort.content("killed/table.csv") == cohort.content("whole/table.csv"));
     CHECK(cohort.content("killed/table.html") == cohort.content("whole/table.html"));
     CHECK(names_in(cohort.folder + "/killed/cases") == names_in(cohort.folder + "/whole/cases"));
+    CHECK(leftovers(cohort.folder + "/killed").empty());
+}
+
+SCENARIO("A batch that is cancelled leaves no lock, no mark and no half of a case",
+         "[workbench][batch]") {
+    const Cohort cohort;
+    write_surface(icosphere(5.0, 6), cohort.folder + "/large.stl");
+    ChildProcess batch(test::program_path(), cohort.command("out", {"--jobs", "2"}));
+    const std::string mark = cohort.folder + "/out/cases/large/batch-running";
+    for (int tries = 0; tries < 60000 && !fs::exists(mark); ++tries)
+        std::this_thread::sleep_for(1ms);
+    batch.signal(SIGINT);
+    CHECK(batch.wait() == 1);
+    CHECK(leftovers(cohort.folder + "/out").empty());
+    CHECK_FALSE(fs::exists(cohort.folder + "/out/cases/large"));
+}
+
+SCENARIO("The folders of inputs are in no file that a batch leaves",
+         "[workbench][batch][privacy]") {
+    const Cohort cohort;
+    static_cast<void>(cohort.run("out", {"--jobs", "2"}));
+    for (const fs::directory_entry& file : fs::recursive_directory_iterator(cohort.folder + "/out"))
+        if (file.path().filename() == "batch.json") {
+            INFO(file.path().string());
+            CHECK_THAT(file_content(file.path()), !Contains(cohort.folder));
+        }
+    THEN("what was read is known all the same") {
+        CHECK(cohort.run("out").err.empty());
+    }
 }
 
 SCENARIO("A case that takes too long or too much memory is ended", "[workbench][batch]") {
@@ -142,6 +181,7 @@ SCENARIO("A case that takes too long or too much memory is ended", "[workbench][
         return printed(cohort.run("out", all))["cases"][0];
     };
     CHECK(first({"--time-limit", "0.05"})["failure"]["code"] == "time-limit");
+    CHECK(leftovers(cohort.folder + "/out").empty());
     CHECK(first({"--memory-limit", "0.01"})["failure"]["code"] == "memory-limit");
     THEN("other limits run it again") {
         CHECK(first({})["state"] == "done");

@@ -118,6 +118,8 @@ SCENARIO("VTP files with impossible data never reach VTK", "[workbench][hostile]
     check(vtp_with("4", appended(compressed_array(1, 0x7fffffff, 48, 40))), "impossible size");
     check(vtp_with("4", appended(compressed_array(0x7fffffff, 48, 48, 40))), "data is missing");
     check(vtp_with("4", appended(compressed_array(1, 48, 48, 4000))), "data is missing");
+    check(vtp_with("4", appended(compressed_array(0, 48, 48, 40))), "without blocks has a rest");
+    check(vtp_with("0", appended(std::string(4, '\0'))), "without blocks has a rest");
     check(vtp_with("999999999999", appended(compressed_array(1, 48, 48, 40))), "NumberOfPoints");
     check(vtp_with("-1", appended(compressed_array(1, 48, 48, 40))), "NumberOfPoints");
     THEN("good ones do") {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <tuple>
 #include <utility>
@@ -284,6 +285,19 @@ SCENARIO("Signed verdicts are verified against allowed signers",
         CHECK(json_of(by_others)["diagnostics"][0]["code"] == "signature-invalid");
         CHECK(run({"audit", project, "--signers", folder + "/none"}).exit_code == 3);
     }
+    WHEN("the key is lost") {
+        REQUIRE(run(entering).exit_code == 0);
+        const Json keys = json_of({"review", project, "--signers", signers})["keys"];
+        REQUIRE(keys.size() == 1);
+        const auto key = keys[0]["fingerprint"].get<std::string>();
+        CHECK(run({"review", project, "--retire-key", key}).exit_code == 2);
+        CHECK(run({"review", project, "--retire-key", "kern", "--reason", "lost"}).exit_code == 2);
+        const ProgramRun retired =
+            run({"review", project, "--retire-key", key, "--reason", "lost"});
+        CHECK(retired.exit_code == 0);
+        CHECK_THAT(retired.out, Contains("key " + key + ": A. Kern, 1 file, retired on"));
+        CHECK(json_of({"audit", project})["entries"].back()["kind"] == "key-retired");
+    }
     WHEN("there is no ssh-keygen, it is named, and nothing is entered") {
         const ProgramRun without = run_program(program_path(), entering, "PATH=/nowhere");
         CHECK(without.exit_code == 3);
@@ -332,6 +346,15 @@ SCENARIO("A recipe can require that reviewers have accepted the model",
         CHECK_THAT(file_content(out + "/surface.vtp"), Contains("accepted by A. Kern"));
         const Json report = Json::parse(file_content(out + "/report.json"));
         CHECK(report["review"]["state"] == "accepted by A. Kern");
+    }
+    THEN("an owner who deletes the number of reviewers is not done either") {
+        Database(out + "/project.vbench", OpenMode::Write)
+            .run("DELETE FROM meta WHERE name = 'acceptance'");
+        const ProgramRun refused =
+            run({"prepare", folder + "/tube.vtp", "--for", "planning", "--out", out, "--resume"});
+        CHECK(refused.exit_code == 1);
+        CHECK_THAT(refused.err, Contains("1 load-surface (open)"));
+        CHECK_FALSE(std::filesystem::exists(out + "/surface.stl"));
     }
     THEN("another purpose is not asked") {
         CHECK(
@@ -384,6 +407,10 @@ SCENARIO("An audit fails if the project is not what its record says",
     CHECK_THAT(good.out, Contains("smooth (smoothing, cfd)") && Contains("Ada") &&
                              Contains("cannot be verified"));
     CHECK_THAT(file_content(folder + "/record.html"), Contains("Verified.") && Contains("smooth"));
+    const ProgramRun witness = run({"audit", project, "--witness"});
+    CHECK(std::count(witness.out.begin(), witness.out.end(), '\n') == 1);
+    write_file(folder + "/book.txt", witness.out);
+    CHECK(run({"audit", project, "--against", folder + "/book.txt"}).exit_code == 0);
     std::string bytes = file_content(project);
     const std::size_t author = bytes.find("Ada");
     REQUIRE(author != std::string::npos);
@@ -394,5 +421,6 @@ SCENARIO("An audit fails if the project is not what its record says",
     CHECK(bad.exit_code == 1);
     CHECK_THAT(bad.err, Contains("not what its record says"));
     CHECK_THAT(bad.out, Contains("edit 2.1 is not what entry"));
+    CHECK(run({"audit", project, "--witness"}).out.empty());
     CHECK(run({"audit", folder + "/none.vbench"}).exit_code == 3);
 }

@@ -37,6 +37,7 @@ void mark(const fs::path& folder) {
 
 /// The mark last: without it, the rest would not be known as ours.
 void remove_unfinished(const fs::path& folder) {
+    if (!fs::exists(folder / kRunning)) return;
     for (const auto& entry : fs::directory_iterator(folder))
         if (entry.path().filename() != kRunning) fs::remove_all(entry.path());
     fs::remove(folder / kRunning);
@@ -73,8 +74,19 @@ fs::path begin_case(const BatchFolders& folders, const std::string& name) {
 }
 
 void end_case(const BatchFolders& folders, const std::string& name) {
+    const fs::path folder = folders.of(name);
+    static_cast<void>(FileLock::acquire(folder / kProjectFile));  // given back, it is removed
+    remove_abandoned(folder);
     std::error_code ignored;
-    fs::remove(folders.of(name) / kRunning, ignored);
+    fs::remove(folder / kRunning, ignored);
+}
+
+void drop_case(const BatchFolders& folders, const std::string& name) {
+    try {
+        remove_unfinished(folders.of(name));
+        fs::remove(folders.of(name));
+    } catch (const fs::filesystem_error&) {  // its mark says that it is unfinished
+    }
 }
 
 }  // namespace vesselbench

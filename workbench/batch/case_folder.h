@@ -24,7 +24,11 @@ struct BatchFolders {
 /// \throw IoError if it cannot be written, or holds what is not of a batch
 std::filesystem::path begin_case(const BatchFolders& folders, const std::string& name);
 
-/// Removes the mark: the case has its record.
+/// Removes the mark: the case has its record. So are the lock and the unfinished files that a
+/// killed program left in the folder.
 void end_case(const BatchFolders& folders, const std::string& name);
+
+/// Removes the folder of a case that was cancelled, with its mark.
+void drop_case(const BatchFolders& folders, const std::string& name);
 
 }  // namespace vesselbench

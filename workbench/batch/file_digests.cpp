@@ -38,7 +38,7 @@ std::string FileDigests::next(const fs::path& path) {
     const std::size_t number = asked_.size();
     Json file = {{"state", ""}, {"sha256", "missing"}};
     try {
-        file["state"] = fs::absolute(path).string() + " " + state_of(path);
+        file["state"] = hash_of_text(fs::absolute(path).string() + " " + state_of(path));
         const bool same = known_.is_array() && number < known_.size() &&
                           known_[number].is_object() &&
                           known_[number].value("state", Json()) == file["state"];

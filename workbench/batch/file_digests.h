@@ -17,7 +17,8 @@ public:
     /// The digest of the next file; "missing" if it cannot be read.
     [[nodiscard]] std::string next(const std::filesystem::path& path);
 
-    /// What was asked for, to be kept: a list of {"state", "sha256"}.
+    /// What was asked for, to be kept: a list of {"state", "sha256"}. Both are digests: the names
+    /// of folders and files are those of patients.
     [[nodiscard]] const nlohmann::ordered_json& json() const { return asked_; }
 
 private:

@@ -53,11 +53,8 @@ void draw_thumbnail(const fs::path& folder, const BatchOptions& options, const P
         options.limits, progress));
 }
 
-}  // namespace
-
-CaseRecord run_case(const PlannedCase& one, const BatchOptions& options, const BatchTeller& tell,
-                    const Progress& progress) {
-    const fs::path folder = options.folders.of(one.what.name);
+CaseRecord prepared_record(const PlannedCase& one, const BatchOptions& options,
+                           const BatchTeller& tell, const Progress& progress) {
     const CaseRun run = prepared(one, options, tell, progress);
     CaseRecord record{.key = one.key,
                       .files = one.files,
@@ -66,10 +63,23 @@ CaseRecord run_case(const PlannedCase& one, const BatchOptions& options, const B
                       .seconds = run.seconds,
                       .peak_mib = run.peak_mib,
                       .input_bytes = one.input_bytes};
-    if (!record.failure) draw_thumbnail(folder, options, progress);
-    write_record(folder, record);
-    end_case(options.folders, one.what.name);
+    if (!record.failure) draw_thumbnail(options.folders.of(one.what.name), options, progress);
     return record;
+}
+
+}  // namespace
+
+CaseRecord run_case(const PlannedCase& one, const BatchOptions& options, const BatchTeller& tell,
+                    const Progress& progress) {
+    try {
+        const CaseRecord record = prepared_record(one, options, tell, progress);
+        write_record(options.folders.of(one.what.name), record);
+        end_case(options.folders, one.what.name);
+        return record;
+    } catch (const Cancelled&) {
+        drop_case(options.folders, one.what.name);
+        throw;
+    }
 }
 
 std::string outcome_text(const CaseRecord& record) {

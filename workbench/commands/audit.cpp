@@ -13,7 +13,9 @@
 #include "workbench/commands/console/console.h"
 #include "workbench/commands/console/messages.h"
 #include "workbench/operations/table.h"
+#include "workbench/project/utc_time.h"
 #include "workbench/review/audit_texts.h"
+#include "workbench/review/witness.h"
 
 namespace vesselbench {
 
@@ -70,6 +72,11 @@ void print_audit(const Audit& audit) {
     print_list("DOES NOT VERIFY:", worded(audit.findings));
 }
 
+/// Nobody should keep the head of a record that the project contradicts.
+void print_witness(const Audit& audit) {
+    if (audit.findings.empty()) std::cout << witness_line(audit.record, utc_now()) << "\n";
+}
+
 std::string what_is_wrong(const std::vector<Diagnostic>& findings) {
     const bool altered = std::ranges::any_of(
         findings, [](const Diagnostic& finding) { return finding.code != "signature-invalid"; });
@@ -83,7 +90,7 @@ std::string what_is_wrong(const std::vector<Diagnostic>& findings) {
 
 bool audit_project(const AuditArguments& arguments, const Progress& progress) {
     const Audit made = audit({.project = arguments.project,
-                              .against = {arguments.against.begin(), arguments.against.end()},
+                              .against = arguments.against,
                               .signers = arguments.signers,
                               .replay = arguments.replay,
                               .find = find_operation},
@@ -93,7 +100,9 @@ bool audit_project(const AuditArguments& arguments, const Progress& progress) {
         files.add_mark(arguments.html, audit_html(made));
         files.commit();
     }
-    if (arguments.json)
+    if (arguments.witness)
+        print_witness(made);
+    else if (arguments.json)
         std::cout << text_from_json(audit_json(made), 2) << "\n";
     else
         print_audit(made);

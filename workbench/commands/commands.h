@@ -284,9 +284,10 @@ void export_project(const ExportArguments& arguments, const Progress& progress);
 struct AuditArguments {
     std::string project;
     std::string html;                  ///< file to write; empty: none
-    std::vector<std::string> against;  ///< files of verdicts
+    std::vector<std::string> against;  ///< witnesses_in()
     std::string signers;               ///< file of allowed signers; empty: nothing is verified
     bool replay = false;
+    bool witness = false;  ///< prints one line for a lab book in place of the record
     bool json = false;
 };
 
@@ -297,6 +298,8 @@ struct ReviewArguments {
     std::vector<std::string> projects;  ///< one, or with `summary` any number
     std::vector<std::string> imported;  ///< files of verdicts
     std::string signers;                ///< file of allowed signers; empty: nothing is verified
+    std::string retired_key;            ///< fingerprint of a key that is to be retired; empty: none
+    std::string reason;                 ///< why it is retired
     std::string page;                   ///< to be written for reviewers; empty: none
     std::string images = "contours";    ///< of the page: off, contours or slices
     std::string variant;                ///< of the page; empty: the only one, or the usual one
@@ -308,8 +311,8 @@ struct ReviewArguments {
 /// \return false if one could not be read: the others are counted
 bool summarize_reviews(const ReviewArguments& arguments, const Progress& progress);
 
-/// Enters reviewers' verdicts, lists how every edit was judged, and writes the page on which
-/// reviewers look at them.
+/// Enters reviewers' verdicts, retires a key, lists how every edit was judged, and writes the page
+/// on which reviewers look at them.
 void review_project(const ReviewArguments& arguments, const Progress& progress);
 
 struct FindingsArguments {

@@ -29,6 +29,7 @@
 #include "workbench/report/log_json.h"
 #include "workbench/review/acceptance.h"
 #include "workbench/review/provenance.h"
+#include "workbench/review/record_gate.h"
 #include "workbench/review/review.h"
 #include "workbench/session/export_record.h"
 #include "workbench/session/source_counterpart.h"
@@ -196,7 +197,10 @@ void export_project(const ExportArguments& arguments, const Progress& progress) 
     const std::vector<LogEntry> log = session.log(variant);
     std::vector<EnteredVerdicts> verdicts =
         entered_verdicts(session.project(), arguments.signers, progress);
-    if (!arguments.signers.empty()) verdicts = signed_or_rejecting(std::move(verdicts));
+    if (!arguments.signers.empty()) {
+        require_signed_bytes(session.project(), verdicts, progress);
+        verdicts = signed_or_rejecting(std::move(verdicts));
+    }
     const Review review = review_of(session.project(), log, verdicts);
     require_acceptance(session, arguments.project, variant, reviewers, review);
     for (const LogEntry& entry : log)

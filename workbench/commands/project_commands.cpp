@@ -156,14 +156,20 @@ void add_audit(CommandLine& line) {
         [options, &line] { return audit_project(*options, line.progress) ? 0 : 1; });
     add_project(command, options->project);
     command
-        .add_option("--against", options->against,
-                    "Verdicts of reviewers: the record must hold what they saw")
-        ->type_name("VERDICTS.json");
+        .add_option(
+            "--against", options->against,
+            "What saw the record earlier, and must still be in it: verdicts of reviewers, an\n"
+            "older copy of the project, or a line of --witness (itself, or in a text file)")
+        ->type_name("WITNESS");
     add_signers(command, options->signers, "Verify the signatures of verdicts by ssh-keygen");
     command.add_flag("--replay", options->replay,
                      "Run the edits of the current state again as well");
     command.add_option("--html", options->html, "Write the record as a page")->type_name("FILE");
+    CLI::Option* witness = command.add_flag(
+        "--witness", options->witness,
+        "Print only a line for a lab book, by which --against finds an end that was cut off");
     add_json(command, options->json);
+    witness->excludes(command.get_option("--json"));
 }
 
 void add_summary(CLI::App& command, ReviewArguments& options) {
@@ -172,7 +178,8 @@ void add_summary(CLI::App& command, ReviewArguments& options) {
         "How far the reviewers of one or several projects agree, by operation: number of edits\n"
         "that two or more have decided, of their verdicts, share of agreement, and from 30 edits\n"
         "on Krippendorff's alpha with its 95 % interval. 'unsure' is no decision");
-    for (const char* other : {"--import", "--signers", "--out", "--images", "--variant"})
+    for (const char* other :
+         {"--import", "--signers", "--retire-key", "--out", "--images", "--variant"})
         summary->excludes(command.get_option(other));
 }
 
@@ -200,6 +207,16 @@ void add_review(CommandLine& line) {
         ->type_name("VERDICTS.json");
     add_signers(command, options->signers,
                 "Verify signatures by ssh-keygen, and refuse to enter verdicts without one");
+    CLI::Option* retired =
+        command
+            .add_option("--retire-key", options->retired_key,
+                        "Enter that nobody signs with this key any more, by its fingerprint: what\n"
+                        "it signs from now on is refused")
+            ->type_name("SHA256:...");
+    CLI::Option* reason = command.add_option("--reason", options->reason, "Why the key is retired")
+                              ->type_name("WORDS")
+                              ->needs(retired);
+    retired->needs(reason);
     command
         .add_option("--out", options->page,
                     "Write one self-contained page with the variant's edits, for any browser")

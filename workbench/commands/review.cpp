@@ -19,8 +19,10 @@
 #include "workbench/project/project.h"
 #include "workbench/review/finding_items.h"
 #include "workbench/review/page_queue.h"
+#include "workbench/review/retired_keys.h"
 #include "workbench/review/review_json.h"
 #include "workbench/review/review_page.h"
+#include "workbench/review/signing_keys.h"
 #include "workbench/review/verdict_import.h"
 #include "workbench/session/edit_place.h"
 
@@ -45,7 +47,18 @@ std::string verdict_list(const std::vector<GivenVerdict>& verdicts) {
     return joined(texts, "; ");
 }
 
-void print_review(const Review& review) {
+/// "SHA256:...: A. Kern, kern@clinic.example, 2 files"
+std::string key_words(const SigningKey& key) {
+    std::vector<std::string> texts = key.reviewers;
+    texts.insert(texts.end(), key.principals.begin(), key.principals.end());
+    texts.push_back(counted(key.files, "file"));
+    if (key.retired)
+        texts.push_back("retired on " + key.retired->time + " by " + key.retired->author + ": " +
+                        key.retired->reason);
+    return key.fingerprint + ": " + joined(texts);
+}
+
+void print_review(const Review& review, const std::vector<SigningKey>& keys) {
     std::vector<std::vector<std::string>> rows = {{"edit", "step", "operation", "review", "by"}};
     for (const ReviewedEdit& edit : review.edits)
         rows.push_back({std::to_string(edit.edit.id) + "." + std::to_string(edit.edit.revision),
@@ -56,6 +69,7 @@ void print_review(const Review& review) {
     std::cout << as_columns(rows);
     if (!review.overall.empty())
         std::cout << printable("the whole: " + verdict_list(review.overall)) << "\n";
+    for (const SigningKey& key : keys) std::cout << printable("key " + key_words(key)) << "\n";
     std::cout << review_words(review) << "\n";
 }
 
@@ -106,17 +120,21 @@ void review_project(const ReviewArguments& arguments, const Progress& progress) 
                             {"known", done.known},
                             {"signature", signature_json(done.signature)}});
     }
+    if (!arguments.retired_key.empty())
+        retire_key(session, arguments.retired_key, arguments.reason);
     Json queue;
     if (!arguments.page.empty()) queue = write_page(session, arguments, progress);
-    const Review review =
-        review_of(session.project(), session.log(),
-                  entered_verdicts(session.project(), arguments.signers, progress));
-    if (!arguments.json) return print_review(review);
+    const std::vector<EnteredVerdicts> entered =
+        entered_verdicts(session.project(), arguments.signers, progress);
+    const Review review = review_of(session.project(), session.log(), entered);
+    const std::vector<SigningKey> keys = signing_keys(entered, retired_keys(session.project()));
+    if (!arguments.json) return print_review(review, keys);
     Json json = {{"project", session.project().name()},
                  {"id", session.project().id()},
                  {"head", session.project().record_head()},
                  {"imported", imported}};
     json.update(review_json(review));
+    json["keys"] = keys_json(keys);
     json["queue"] = arguments.page.empty() ? queue_of(session, arguments.variant, progress) : queue;
     std::cout << text_from_json(json, 2) << "\n";
 }

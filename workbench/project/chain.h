@@ -11,6 +11,10 @@
 
 namespace vesselbench {
 
+// Kinds of entries that several places know.
+constexpr const char* kVerdictsEntered = "verdicts";
+constexpr const char* kKeyRetired = "key-retired";
+
 /// One entry of a project's chained record.
 struct ChainEntry {
     std::int64_t number = 0;  ///< 1, 2, ...

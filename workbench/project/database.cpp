@@ -1,6 +1,7 @@
 #include "workbench/project/database.h"
 
 #include <bit>
+#include <fstream>
 #include <utility>
 
 #include <sqlite3.h>
@@ -32,9 +33,11 @@ constexpr int kPatienceMilliseconds = 10000;
                 "cannot write " + name +
                 ": the disk is full. The project is unchanged; free some space and try again");
         case SQLITE_IOERR:
-            throw IoError("cannot read or write " + name + " (" + why +
-                          "): the disk or your quota is full, or the disk is failing. The project "
-                          "is unchanged; free some space and try again");
+            throw IoError(
+                "cannot read or write " + name + " (" + why +
+                "): the disk or your quota is full, files may not be that large here "
+                "(ulimit -f), or the disk is failing. The project is unchanged; free some "
+                "space or raise the limit, and try again");
         case SQLITE_READONLY:
         case SQLITE_PERM:
             throw IoError("cannot write " + name + ": no permission");
@@ -71,6 +74,11 @@ std::string address_of(const std::filesystem::path& file, OpenMode mode) {
                             : std::string(1, c);
     }
     return address + "?immutable=1";
+}
+
+/// SQLite would give a new file no more permissions than 644, whatever the umask allows.
+void create_empty(const std::filesystem::path& file) {
+    std::ofstream(file, std::ios::app);  // where it fails, SQLite says why
 }
 
 /// A file from a stranger must not make SQLite do anything but read and write rows.
@@ -177,6 +185,7 @@ void Database::Close::operator()(sqlite3* database) const {
 
 Database::Database(const std::filesystem::path& file, OpenMode mode)
     : name_(mode == OpenMode::Temporary ? "the unsaved project" : file.filename().string()) {
+    if (mode == OpenMode::Create) create_empty(file);
     sqlite3* opened = nullptr;
     const int code =
         sqlite3_open_v2(address_of(file, mode).c_str(), &opened, flags_of(mode), nullptr);

@@ -229,10 +229,12 @@ ProjectFile ProjectFile::open(const std::filesystem::path& path, std::size_t emb
     else
         attempt = FileLock::acquire(path);
     if (!attempt.lock) return ProjectFile(Parts::open_to_read(path, embed_limit, attempt.reason));
-    auto parts = Parts::open_to_write(path, embed_limit, std::move(attempt.lock));
+    std::unique_ptr<Parts> parts;
     try {
+        parts = Parts::open_to_write(path, embed_limit, std::move(attempt.lock));
         parts->require_record();
-    } catch (const IoError& error) {  // it can still be read
+    } catch (const IoError& error) {  // a full disk, for one: it can still be read
+        parts.reset();
         return ProjectFile(Parts::open_to_read(path, embed_limit, error.what()));
     }
     remove_abandoned(path.has_parent_path() ? path.parent_path() : ".");
@@ -452,6 +454,7 @@ void ProjectFile::save_as(const std::filesystem::path& path, const Progress& pro
         const Interruptible copying(parts_->database, progress);
         Statement copy = parts_->database.prepare("VACUUM INTO ?");
         const std::string name = files.add(path).string();
+        std::ofstream(name, std::ios::app);  // as the umask allows; SQLite takes an empty file
         copy.bind(0, name).step();
     }
     name_new_project(path, files);

@@ -1,7 +1,6 @@
 #include "workbench/review/audit.h"
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 
 #include "geometry/kernel/bare_name.h"
@@ -10,6 +9,7 @@
 #include "geometry/kernel/wording.h"
 #include "workbench/project/project.h"
 #include "workbench/review/statement.h"
+#include "workbench/review/witness.h"
 
 namespace vesselbench {
 
@@ -19,64 +19,25 @@ Diagnostic finding(std::string code, std::map<std::string, std::string> words) {
     return {.code = std::move(code), .severity = Severity::Error, .words = std::move(words)};
 }
 
-/// Verdicts whose reviewer saw the record's head.
-struct Witness {
-    std::string name;
-    VerdictFile verdicts;
-    std::int64_t entry = 0;  ///< that has the head; 0: none
-};
-
-std::int64_t entry_with(const RecordCheck& record, const std::string& hash) {
-    const auto found = std::ranges::find(record.entries, hash, &ChainEntry::hash);
-    return found == record.entries.end() ? 0 : found->number;
-}
-
-constexpr const char* kInProject = "verdicts in the project";
-
-std::vector<Witness> witnesses(const std::vector<std::filesystem::path>& files,
-                               const std::vector<EnteredVerdicts>& entered,
-                               const RecordCheck& record) {
-    std::vector<Witness> list;
-    for (const std::filesystem::path& file : files)
-        list.push_back({bare_name(file), verdicts_from_file(file)});
-    for (const EnteredVerdicts& one : entered) list.push_back({kInProject, one.verdicts});
-    for (Witness& witness : list) witness.entry = entry_with(record, witness.verdicts.chain_head);
-    return list;
-}
-
-/// Where a record was rewritten that no longer has what a witness saw.
-std::string rewritten_where(const Witness& witness, const std::vector<Witness>& all,
-                            const RecordCheck& record) {
-    std::int64_t last = 0, confirmed = 0;
-    for (const ChainEntry& entry : record.entries)
-        if (entry.time <= witness.verdicts.written) last = entry.number;
-    for (const Witness& other : all)
-        if (other.entry <= last) confirmed = std::max(confirmed, other.entry);
-    if (last == 0) return "as a whole after " + witness.verdicts.written;
-    if (confirmed == last) return "after entry " + std::to_string(last);
-    return "between entry " + std::to_string(confirmed + 1) + " and entry " + std::to_string(last);
-}
-
+/// Of `all`, those that a record does not contradict are verified.
 void check_witnesses(const std::vector<Witness>& all, Audit& audit) {
-    for (const Witness& witness : all) {
-        const VerdictFile& verdicts = witness.verdicts;
-        if (verdicts.project != audit.record.project)
-            audit.findings.push_back(
-                finding("record-other-project", {{"file", witness.name},
-                                                 {"reviewer", printable(verdicts.reviewer)},
-                                                 {"name", printable(verdicts.project_name)}}));
-        else if (witness.entry == 0)
-            audit.findings.push_back(finding(
-                "record-rewritten", {{"file", witness.name},
-                                     {"reviewer", printable(verdicts.reviewer)},
-                                     {"head", verdicts.chain_head.substr(0, 12)},
-                                     {"where", rewritten_where(witness, all, audit.record)}}));
-        else
-            audit.verified.push_back(witness.name + ": " + printable(verdicts.reviewer) +
-                                     " saw the record up to entry " +
-                                     std::to_string(witness.entry) +
+    const std::vector<Diagnostic> found = contradictions_of(all, audit.record);
+    audit.findings.insert(audit.findings.end(), found.begin(), found.end());
+    for (const Witness& witness : all)
+        if (const std::int64_t seen = entry_seen(witness, audit.record);
+            seen > 0 && witness.project == audit.record.project)
+            audit.verified.push_back(witness.name + ": " + witness.who +
+                                     " saw the record up to entry " + std::to_string(seen) +
                                      ", and it still is what it was");
-    }
+}
+
+/// In the files and lines that were given.
+std::vector<Witness> given_witnesses(const std::vector<std::string>& given,
+                                     const RecordCheck& record) {
+    std::vector<Witness> list;
+    for (const std::string& one : given)
+        for (Witness& witness : witnesses_in(one, record)) list.push_back(std::move(witness));
+    return list;
 }
 
 void check_signatures(const std::vector<EnteredVerdicts>& entered, Audit& audit) {
@@ -84,7 +45,7 @@ void check_signatures(const std::vector<EnteredVerdicts>& entered, Audit& audit)
         ++audit.signatures[signature.state];
         const std::string of = printable(verdicts.reviewer) + ", " + verdicts.written;
         if (signature.state == SignatureState::Verified)
-            audit.verified.push_back(std::string(kInProject) + ": those of " + of + ", are " +
+            audit.verified.push_back("verdicts in the project: those of " + of + ", are " +
                                      printable(signature_words(signature)));
         if (signature.state == SignatureState::Invalid)
             audit.findings.push_back(finding(
@@ -146,8 +107,8 @@ void add_limits(const AuditOptions& options, Audit& audit) {
             "that the operations give the stored results: --replay runs them again");
     if (options.against.empty())
         audit.unverified.emplace_back(
-            "that the record was not rewritten from some entry on: --against compares it with "
-            "reviewers' files");
+            "that the record was not rewritten from some entry on, or its end cut off: --against "
+            "compares it with reviewers' files, an older copy, or a line of --witness");
     add_unknown_people(audit);
 }
 
@@ -167,7 +128,7 @@ void read_project(const AuditOptions& options, Audit& audit, const Progress& pro
             options.project, {.find = options.find, .worker = options.worker, .only_reads = true});
         const std::vector<EnteredVerdicts> entered =
             entered_verdicts(session.project(), options.signers, progress);
-        check_witnesses(witnesses({}, entered, audit.record), audit);
+        check_witnesses(witnesses_of(entered), audit);
         check_signatures(entered, audit);
         audit.statement =
             statement_of(session, review_of(session.project(), session.log(), entered),
@@ -191,7 +152,7 @@ Audit audit(const AuditOptions& options, const Progress& progress) {
         made.verified.push_back(counted(made.record.entries.size(), "entry", "entries") + " and " +
                                 counted(made.record.rows, "stored row") +
                                 " agree, and all stored data have their checksums");
-    check_witnesses(witnesses(options.against, {}, made.record), made);
+    check_witnesses(given_witnesses(options.against, made.record), made);
     read_project(options, made, progress.part(until, 1.0));
     add_limits(options, made);
     return made;

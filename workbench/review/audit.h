@@ -16,10 +16,10 @@ namespace vesselbench {
 
 struct AuditOptions {
     std::filesystem::path project;
-    std::vector<std::filesystem::path> against;  ///< files of verdicts, which saw earlier heads
-    std::filesystem::path signers;               ///< as signature_of(); empty: none are known
-    bool replay = false;                         ///< runs every edit of the current state again
-    OperationLookup find;                        ///< required
+    std::vector<std::string> against;  ///< witnesses_in(), which saw earlier heads
+    std::filesystem::path signers;     ///< as signature_of(); empty: none are known
+    bool replay = false;               ///< runs every edit of the current state again
+    OperationLookup find;              ///< required
     WorkerOptions worker = {};
 };
 

@@ -67,6 +67,7 @@ std::string words_of(const std::string& kind, const Json& facts) {
     if (kind == "found")
         return "the record begins with what was found: " + counted(size_of(facts, "rows"), "row") +
                ", whose history it does not know";
+    if (kind == kKeyRetired) return "nobody signs with it any more: " + text_at(facts, "reason");
     if (kind == "new") return "the project begins";
     return kind == "remove" ? "left out" : "stored";
 }

@@ -15,6 +15,9 @@ namespace vesselbench {
 
 namespace {
 
+/// Fractions of the progress: all results are read, and all models are compared.
+constexpr double kReadingShare = 0.1, kComparingShare = 0.9;
+
 /// A vertex that is nearer to the surface before has not moved [mm].
 constexpr double kUnmoved = 1e-4;
 
@@ -97,8 +100,10 @@ std::vector<ShownEdit> surfaces_of(Session& session, const std::vector<LogEntry>
                                    const Progress& progress) {
     std::vector<ShownEdit> shown;
     for (const LogEntry& entry : log) {
+        progress.report(static_cast<double>(shown.size()) / static_cast<double>(log.size()),
+                        "reading the edits' results");
         if (entry.status != EditStatus::Done || !entry.result) continue;
-        const Scene scene = session.result_scene(entry.result->id, progress);
+        const Scene scene = session.result_scene(entry.result->id, progress.silent());
         if (scene.surface && !scene.surface->empty())
             shown.push_back({entry.edit.edit.id, *scene.surface});
         last = scene;
@@ -138,13 +143,17 @@ PageModels page_models(Session& session, const std::vector<LogEntry>& log,
                        const OperationLookup& find, const PageContents& contents,
                        Progress progress) {
     Scene last;
-    const std::vector<ShownEdit> shown = surfaces_of(session, log, last, progress);
+    const std::vector<ShownEdit> shown =
+        surfaces_of(session, log, last, progress.part(0.0, kReadingShare));
     const auto& neighbours = last.neighbours;
     PageModels models{
         .geometry = PageGeometry(box_of(shown, neighbours)), .edits = {}, .neighbours = {}};
     std::optional<ShownSurface> before;
+    const Progress comparing = progress.part(kReadingShare, kComparingShare);
     for (const ShownEdit& edit : shown) {
-        progress.check_cancelled();
+        comparing.report(
+            static_cast<double>(models.edits.size()) / static_cast<double>(shown.size()),
+            "comparing the models before and after the edits");
         PageEditModel& model = models.edits[edit.id];
         ShownSurface after{edit.surface, models.geometry.add(edit.surface)};
         if (before) model.before = before->state.number;
@@ -160,7 +169,9 @@ PageModels page_models(Session& session, const std::vector<LogEntry>& log,
         models.neighbours.emplace_back(name, models.geometry.add(surface).number);
     for (const LogEntry& entry : log)
         if (const Operation* operation = known_operation(find, entry.edit.operation))
-            if (auto others = other_choices(session, entry, *operation, progress); !others.empty())
+            if (auto others =
+                    other_choices(session, entry, *operation, progress.part(kComparingShare, 1.0));
+                !others.empty())
                 models.edits[entry.edit.edit.id].others = std::move(others);
     return models;
 }

@@ -1,5 +1,6 @@
 #include "workbench/review/signing_key.h"
 
+#include <algorithm>
 #include <cctype>
 #include <string_view>
 #include <vector>
@@ -7,6 +8,7 @@
 #include <openssl/evp.h>
 
 #include "workbench/project/content_hash.h"
+#include "workbench/report/base64.h"
 
 namespace vesselbench {
 
@@ -16,6 +18,8 @@ constexpr std::string_view kBegin = "-----BEGIN SSH SIGNATURE-----";
 constexpr std::string_view kEnd = "-----END SSH SIGNATURE-----";
 constexpr std::string_view kMagic = "SSHSIG";
 constexpr std::size_t kVersionBytes = 4;
+constexpr std::string_view kFingerprint = "SHA256:";
+constexpr std::size_t kFingerprintDigits = 43;  ///< of 32 bytes in base64 without its padding
 
 /// The bytes between the armor's lines; empty if there are none.
 std::string unarmored(const std::string& signature) {
@@ -50,6 +54,22 @@ std::string signing_key(const std::string& signature) {
     const std::string_view key =
         sized_text_at(std::string_view(bytes).substr(kMagic.size() + kVersionBytes));
     return key.empty() ? "" : hash_of_text(key);
+}
+
+std::string key_fingerprint(const std::string& key) {
+    std::string bytes;
+    for (std::size_t i = 0; i + 1 < key.size(); i += 2)
+        bytes += static_cast<char>(std::stoi(key.substr(i, 2), nullptr, 16));
+    const std::string digits = base64(bytes);
+    return std::string(kFingerprint) + digits.substr(0, digits.find('='));
+}
+
+bool is_key_fingerprint(const std::string& text) {
+    return text.starts_with(kFingerprint) &&
+           text.size() == kFingerprint.size() + kFingerprintDigits &&
+           std::all_of(text.begin() + kFingerprint.size(), text.end(), [](unsigned char c) {
+               return std::isalnum(c) != 0 || c == '+' || c == '/';
+           });
 }
 
 }  // namespace vesselbench

@@ -10,4 +10,10 @@ namespace vesselbench {
 /// \return empty if it is no such signature
 [[nodiscard]] std::string signing_key(const std::string& signature);
 
+/// A signing_key() as `ssh-keygen -l` prints it: "SHA256:" and the digest in base64.
+[[nodiscard]] std::string key_fingerprint(const std::string& key);
+
+/// True of a text as key_fingerprint() writes it.
+[[nodiscard]] bool is_key_fingerprint(const std::string& text);
+
 }  // namespace vesselbench

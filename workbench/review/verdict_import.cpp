@@ -13,11 +13,14 @@
 #include "geometry/kernel/wording.h"
 #include "workbench/case/json_text.h"
 #include "workbench/case/version.h"
+#include "workbench/project/chain.h"
 #include "workbench/project/content_hash.h"
 #include "workbench/project/project.h"
 #include "workbench/project/utc_time.h"
 #include "workbench/review/import_checks.h"
+#include "workbench/review/retired_keys.h"
 #include "workbench/review/review.h"
+#include "workbench/review/signing_key.h"
 
 namespace vesselbench {
 
@@ -39,6 +42,17 @@ std::string facts_of(const VerdictFile& file, const std::string& signature,
     if (!signature.empty()) facts["signature"] = hash_of_text(signature);
     if (!known.signer.empty()) facts["signer"] = known.signer;
     return text_from_json(facts);
+}
+
+/// \throw InvalidInput if the signature is by a key that was retired
+void check_not_retired(const std::string& signature, const std::string& name,
+                       const ProjectFile& project) {
+    const std::string key = signing_key(signature);
+    if (key.empty()) return;
+    const std::vector<RetiredKey> keys = retired_keys(project);
+    if (const RetiredKey* retired = find_retired(keys, key_fingerprint(key)))
+        throw InvalidInput(name + " cannot be entered: " + retired_words(*retired) +
+                           "; sign it with another key");
 }
 
 /// True if a project has what a file says, signed or not.
@@ -72,13 +86,14 @@ ImportedVerdicts enter(Session& session, StoredVerdicts given, const Signature& 
                        const std::string& name) {
     ImportedVerdicts done{.verdicts = verdicts_from_text(given.text, name), .signature = signature};
     check_before_entering(done.verdicts, name, session);
+    check_not_retired(given.signature, name, session.project());
     const std::string facts = facts_of(done.verdicts, given.signature, signature);
     if (given.signature.empty()) given.text = text_of(done.verdicts);
     done.known = given.signature.empty() && has_verdicts(session.project(), given.text);
     if (!done.known)
         done.known = !session.add_verdicts(
             given, hash_of_text(given.text + given.signature),
-            {.kind = "verdicts", .subject = done.verdicts.reviewer, .facts = facts});
+            {.kind = kVerdictsEntered, .subject = done.verdicts.reviewer, .facts = facts});
     done.outdated = outdated_in(done.verdicts, session);
     return done;
 }

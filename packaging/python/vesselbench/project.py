@@ -130,7 +130,7 @@ class Project:
 
         out       writes the page (.html) on which experts judge the edits
         verdicts  enters the files that reviewers saved
-        options   images, variant, signers
+        options   images, variant, signers, retire_key, reason
         """
         return read(Review, self._answer("review", {"out": out, "import": verdicts, **options}), "review")
 
