@@ -43,7 +43,7 @@ IN_A_ROW = 3
 JUDGE = os.path.join(DATA, "ends", "judge_ends.py")
 GROUPS = ("surfaces", "images", "nasty", "slicer", "strangers", "ends", "anatomy", "forest")
 OUTCOMES = ("helped", "wrong", "led on", "did not help", "outside", "slow")
-QUESTIONS = {"unit-in-doubt", "label-unchosen", "body-no-vessel", "end-in-doubt", "vessel-unstated"}
+QUESTIONS = {"unit-in-doubt", "label-unchosen", "body-no-vessel", "wall-has-two-sides", "end-in-doubt", "vessel-unstated"}
 PAGE = os.path.join(ROOT, "docs", "science", "remedies.md")
 
 

@@ -101,8 +101,10 @@ constexpr CatalogueText kTexts[] = {
     // Repair and local edits.
     {"outer-wall-removed",
      "the surface has the outer and the inner side of a vessel's wall: the outer one was removed, "
-     "since blood flows inside the inner one; to use the outer one, load it from a file of its "
-     "own"},
+     "since blood flows inside the inner one[; {fix} keeps the outer one instead]"},
+    {"wall-has-two-sides",
+     "the surface has the outer and the inner side of a vessel's wall, one within the other: "
+     "{fix} keeps the inner one, the lumen in which blood flows; {fix2} keeps the outer one"},
     {"bodies-united",
      "{bodies#closed body|closed bodies} that overlap were united; {fix} keeps the largest one "
      "only"},

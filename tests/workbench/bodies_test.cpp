@@ -41,12 +41,14 @@ Surface plate() {
     });
 }
 
-Outcome repaired(const Surface& surface, const std::string& bodies) {
+Outcome repaired(const Surface& surface, const std::string& bodies,
+                 const std::string& wall = "lumen") {
     Scene scene;
     scene.surface = surface;
     Progress progress;
     const Operation& repair = find_operation("repair");
-    return run_here(repair, scene, checked_arguments(repair, {{"bodies", bodies}}), progress);
+    return run_here(repair, scene, checked_arguments(repair, {{"bodies", bodies}, {"wall", wall}}),
+                    progress);
 }
 
 std::size_t count_of(const Surface& surface) {
@@ -138,4 +140,25 @@ SCENARIO("Of a wall with two sides nothing is united, and no cavity is called in
     CHECK(warns(outcome, "outer-wall-removed"));
     CHECK_FALSE(warns(outcome, "bodies-united"));
     CHECK_FALSE(warns(outcome, "orientation-reversed"));
+}
+
+SCENARIO("Which side of a wall is the vessel is asked", "[workbench][bodies]") {
+    const Surface inner = moved(closed_tube(3.0, 38.0, 32, 40), {0, 0, 1});
+    for (const Surface& within : {inner, flipped(inner)}) {
+        const Surface both = merged(trunk(), within);
+        CHECK_THROWS_AS(repaired(both, "ask", "ask"), UsageError);
+        CHECK_THROWS_WITH(repaired(both, "ask", "ask"), Contains("wall=lumen") &&
+                                                            Contains("wall=outer") &&
+                                                            !Contains("inside out"));
+        const Outcome lumen = repaired(both, "ask", "lumen"),
+                      outer = repaired(both, "ask", "outer");
+        CHECK(volume(*lumen.scene.surface) == Approx(volume(inner)));
+        CHECK(warns(lumen, "outer-wall-removed"));
+        CHECK(volume(*outer.scene.surface) == Approx(volume(trunk())));
+        CHECK(outer.warnings.empty());
+    }
+    THEN("a vessel alone, or a small body in it, is not asked about") {
+        CHECK_NOTHROW(repaired(trunk(), "ask", "ask"));
+        CHECK_NOTHROW(repaired(merged(trunk(), icosphere(1.0, 2, Vec3(0, 0, 20))), "ask", "ask"));
+    }
 }

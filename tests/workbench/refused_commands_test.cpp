@@ -103,6 +103,23 @@ SCENARIO("A question about a body offers a command that resumes with the answer"
     CHECK(exit_code_of(answer) == 0);
 }
 
+SCENARIO("A wall with two sides is asked about with a command for each", "[workbench][remedies]") {
+    const Surface inner = mapped(closed_tube(3.0, 38.0, 28, 36),
+                                 [](const Vec3& p) { return Vec3(p + Vec3(0, 0, 1)); });
+    const std::string folder = temporary_folder(), out = folder + "/out";
+    write_surface(merged(closed_tube(4.0, 40.0, 28, 36), inner), folder + "/wall.stl");
+    for (const std::string purpose : {"cfd", "rp"}) {
+        CAPTURE(purpose);
+        const Json question =
+            diagnostics_of(run({"prepare", folder + "/wall.stl", "--for", purpose, "--out",
+                                out + purpose, "--units", "mm", "--json"}))
+                .at(0);
+        CHECK(question["code"] == "wall-has-two-sides");
+        CHECK(has(command_of(question, 0), "repair.wall=lumen"));
+        CHECK(has(command_of(question, 1), "repair.wall=outer"));
+    }
+}
+
 SCENARIO("A command that resumes keeps the settings that are still to come, but what it replaces",
          "[workbench][remedies]") {
     const DiagnosedFailure doubt(

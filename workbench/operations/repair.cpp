@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/openings/flat_caps.h"
 #include "workbench/case/point_json.h"
@@ -26,6 +27,20 @@ constexpr std::size_t kMostNamed = 5;
 
 /// A removed piece of more than this fraction of the triangles [-] causes a warning.
 constexpr double kWorthAWarning = 0.01;
+
+/// Choices of the parameter `wall`.
+constexpr const char* kLumen = "lumen";
+constexpr const char* kOuter = "outer";
+constexpr const char* kAskWall = "ask";
+
+/// Of a wall with two sides, which one is the vessel depends on what the file means.
+void ask_about_wall(const RepairReport& report) {
+    if (report.removed_outer_wall)
+        throw DiagnosedUsage(
+            {.code = "wall-has-two-sides",
+             .operation = "repair",
+             .remedies = {{.arguments = {{"wall", kLumen}}}, {.arguments = {{"wall", kOuter}}}}});
+}
 
 ordered_json places_json(const std::vector<RepairPlace>& places) {
     ordered_json by_kind = ordered_json::object();
@@ -110,7 +125,7 @@ std::optional<Diagnostic> removal_warning(const RepairReport& report, const Surf
                         {"length_mm", vessel->length},
                         {"diameter_mm", vessel->diameter}},
             .remedies = {{.arguments = {{"keep_components", std::to_string(report.keeping_it)}}}}};
-    if (report.removed_outer_wall ||
+    if (report.removed_outer_wall || report.removed_inner_wall ||
         triangles <= kWorthAWarning * static_cast<double>(before.triangle_count()))
         return std::nullopt;
     return Diagnostic{.code = "pieces-removed",
@@ -121,7 +136,9 @@ std::optional<Diagnostic> removal_warning(const RepairReport& report, const Surf
 std::vector<Diagnostic> warnings_of(const RepairReport& report, const Surface& before,
                                     bool given_radius) {
     std::vector<Diagnostic> warnings;
-    if (report.removed_outer_wall) warnings.push_back({.code = "outer-wall-removed"});
+    if (report.removed_outer_wall)
+        warnings.push_back(
+            {.code = "outer-wall-removed", .remedies = {{.arguments = {{"wall", kOuter}}}}});
     if (auto removal = removal_warning(report, before)) warnings.push_back(std::move(*removal));
     if (!given_radius) add_closed_ends(report.closed_ends, warnings);
     if (report.turned_inside_out) warnings.push_back({.code = "orientation-reversed"});
@@ -157,11 +174,13 @@ Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) 
     RepairParameters parameters;
     parameters.close_holes_up_to = arguments.optional_real("close_holes_up_to");
     parameters.keep_components = static_cast<std::size_t>(arguments.integer("keep_components"));
+    parameters.outer_wall = arguments.text("wall") == kOuter;
     parameters.remove_self_intersections = arguments.flag("self_intersections");
     parameters.smallest_feature = arguments.real("smallest_feature");
     const SettledBodies bodies =
         settled_bodies(scene, arguments.text("bodies"), progress.part(0.0, 0.1));
     Repaired repaired = repair(bodies.surface, parameters, progress.part(0.1, 0.6));
+    if (arguments.text("wall") == kAskWall && !scene.image) ask_about_wall(repaired.report);
     Outcome outcome;
     outcome.resolved = arguments;
     ordered_json report = report_json(repaired.report);
@@ -209,9 +228,16 @@ Operation repair_operation() {
               .unit = "-",
               .default_value = std::int64_t{1},
               .help = "number of unconnected pieces to keep, in descending order of area; 1 keeps "
-                      "the inner side of a wall that has two",
+                      "one side of a wall that has two, see wall",
               .minimum = 1},
              bodies_parameter(),
+             {.name = "wall",
+              .type = Choice,
+              .default_value = kLumen,
+              .help = "of a wall with two sides, a surface within another one, keep; lumen: the "
+                      "inner side; outer: the outer side; ask: it is asked about if the surface "
+                      "is of a file",
+              .choices = {kLumen, kOuter, kAskWall}},
              {.name = "self_intersections",
               .type = Flag,
               .default_value = true,

@@ -32,7 +32,7 @@ void check_input(const Surface& surface) {
 void restore_manifold(TriangleSoup& mesh, const RepairParameters& parameters,
                       RepairReport& report) {
     make_manifold(mesh, false, report);
-    keep_largest_components(mesh, parameters.keep_components, report);
+    keep_largest_components(mesh, parameters, report);
     face_outward(mesh, report);
     // The inner side of a wall faces its cavity: that is no fault of the surface.
     if (report.removed_outer_wall) report.turned_inside_out = false;
@@ -41,7 +41,7 @@ void restore_manifold(TriangleSoup& mesh, const RepairParameters& parameters,
         make_manifold(mesh, false, report);
     }
     make_manifold(mesh, true, report);
-    keep_largest_components(mesh, parameters.keep_components, report);
+    keep_largest_components(mesh, parameters, report);
     remove_degenerate_and_duplicate(mesh, report);
     std::fill(mesh.marks.begin(), mesh.marks.end(), std::uint8_t{0});
     remove_slivers(mesh, parameters.smallest_feature, report);

@@ -56,6 +56,7 @@ struct RepairReport {
     std::optional<PieceShape> removed_vessel;  ///< the longest one that is a vessel
     std::size_t keeping_it = 0;                ///< number of components to keep so that it stays
     bool removed_outer_wall = false;           ///< of a wall with two sides
+    bool removed_inner_wall = false;           ///< the same, where the outer one is wanted
     std::size_t non_manifold_edges = 0;
     std::size_t non_manifold_vertices = 0;
     std::size_t turned_triangles = 0;    ///< to make the orientation consistent

@@ -115,14 +115,11 @@ bool is_nested(const TriangleSoup& mesh, const Components& parts, std::size_t in
     return static_cast<double>(inside) >= kNested * static_cast<double>(samples);
 }
 
-/// Puts the inner side of a vessel's wall, where the blood flows, before the outer one.
-/// \return true if there are both
-bool put_lumen_first(const TriangleSoup& mesh, const Components& parts, std::vector<Part>& order) {
-    if (order[1].area < kInnerWall * order[0].area ||
-        !is_nested(mesh, parts, order[1].number, order[0].number))
-        return false;
-    std::swap(order[0], order[1]);
-    return true;
+/// True if the two largest parts are the outer and the inner side of a vessel's wall.
+bool are_wall_sides(const TriangleSoup& mesh, const Components& parts,
+                    const std::vector<Part>& order) {
+    return order[1].area >= kInnerWall * order[0].area &&
+           is_nested(mesh, parts, order[1].number, order[0].number);
 }
 
 /// Of the parts behind the first `count`, the longest vessel.
@@ -197,13 +194,16 @@ void remove_degenerate_and_duplicate(TriangleSoup& mesh, RepairReport& report) {
     mesh.remove_triangles(marked);
 }
 
-void keep_largest_components(TriangleSoup& mesh, std::size_t count, RepairReport& report) {
+void keep_largest_components(TriangleSoup& mesh, const RepairParameters& parameters,
+                             RepairReport& report) {
+    const std::size_t count = parameters.keep_components;
     const Components parts = connected_components(Topology(mesh.triangles, mesh.points.size()));
     if (parts.count() <= 1) return;
     std::vector<Part> order = parts_by_area(mesh, parts);
     check_main_part(order, area_of(mesh));
-    const bool walls = count == 1 && put_lumen_first(mesh, parts, order);
-    report.removed_outer_wall = report.removed_outer_wall || walls;
+    const bool walls = count == 1 && are_wall_sides(mesh, parts, order);
+    if (walls && !parameters.outer_wall) std::swap(order[0], order[1]);  // where the blood flows
+    (parameters.outer_wall ? report.removed_inner_wall : report.removed_outer_wall) |= walls;
     note_vessel(mesh, parts, order, walls ? 2 : count, report);
     std::vector<std::uint8_t> drop(parts.count(), 0);
     for (std::size_t i = count; i < order.size(); ++i) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "geometry/editing/triangle_soup.h"
+#include "geometry/vessel/repair/repair_parameters.h"
 #include "geometry/vessel/repair/repair_report.h"
 
 namespace vesselbench {
@@ -21,10 +22,11 @@ void weld(TriangleSoup& mesh, double tolerance, RepairReport& report);
 /// vertices.
 void remove_degenerate_and_duplicate(TriangleSoup& mesh, RepairReport& report);
 
-/// Keeps the `count` components of largest area. Of a vessel's wall with an outer and an inner
-/// side, unconnected, a count of 1 keeps the inner one.
+/// Keeps the `keep_components` components of largest area. Of a vessel's wall with an outer and an
+/// inner side, unconnected, a count of 1 keeps the inner one, unless `outer_wall` is wanted.
 /// \throw AlgorithmFailure if the largest one is only a small part of the surface: scattered
 ///        triangles are no surface
-void keep_largest_components(TriangleSoup& mesh, std::size_t count, RepairReport& report);
+void keep_largest_components(TriangleSoup& mesh, const RepairParameters& parameters,
+                             RepairReport& report);
 
 }  // namespace vesselbench
