@@ -18,9 +18,9 @@ struct ProposedNeck {
 /// the plane is moved and tilted until the square of its outline's length is least in comparison
 /// with the area of the wall that it cuts off, among all planes that separate the dome from the
 /// vessel's ends by one closed curve. A plane nearer to the dome loses more wall than outline;
-/// nearer to the parent, its section widens into the parent. A rotation, another unit or other
-/// triangles change the plane by their own error only.
-/// [docs/science/sacs.md compares it with experts' necks.]
+/// nearer to the parent, its section widens into the parent.
+/// docs/science/sacs.md compares it with experts' necks. At a sharp crease between sac and parent
+/// it depends on the size of the triangles there.
 /// \param dome point in the sac's dome [mm]
 /// \throw AlgorithmFailure if no branch has its tip there, it has no parent vessel, or no plane
 ///        separates it from the vessel's ends
