@@ -609,6 +609,8 @@ constexpr CatalogueText kTexts[] = {
      "there is no vessel in it that can be distinguished from noise: the surface has "
      "{loops#loop}; make it anew from its image, with another threshold or a mask"},
     {"no-branch-at-tip", "no branch has its tip near {place}"},
+    {"no-neck",
+     "no plane separates a sac with its dome at {place} from the vessel's ends by one closed curve"},
     {"branch-without-parent",
      "the vessel with its tip at {place} has no parent vessel: nothing would remain"},
     {"no-closed-section",

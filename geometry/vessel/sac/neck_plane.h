@@ -1,0 +1,30 @@
+#pragma once
+
+#include "geometry/kernel/progress.h"
+#include "geometry/vessel/sac/sac_part.h"
+
+namespace vesselbench {
+
+/// An aneurysm's sac as far as its neck, and the vessel that carries it.
+struct ProposedNeck {
+    SacPart sac;
+    double parent_diameter = 0.0;  ///< of the parent's tube at the neck [mm]
+};
+
+/// Proposes the plane of a sac's neck.
+///
+/// The parent vessel's tube is continued through the sac as if that had never been there
+/// (vessel_tube.h); where the wall around the dome stands out of it is the first guess. From there,
+/// the plane is moved and tilted until the square of its outline's length is least in comparison
+/// with the area of the wall that it cuts off, among all planes that separate the dome from the
+/// vessel's ends by one closed curve. A plane nearer to the dome loses more wall than outline;
+/// nearer to the parent, its section widens into the parent.
+/// docs/science/sacs.md compares it with experts' necks. At a sharp crease between sac and parent
+/// it depends on the size of the triangles there.
+/// \param dome point in the sac's dome [mm]
+/// \throw AlgorithmFailure if no branch has its tip there, it has no parent vessel, or no plane
+///        separates it from the vessel's ends
+[[nodiscard]] ProposedNeck propose_neck(const Surface& surface, const Vec3& dome,
+                                        const Progress& progress = {});
+
+}  // namespace vesselbench
