@@ -1,7 +1,6 @@
 #include "meshing/layers/touching_balls.h"
 
-#include <cmath>
-#include <numbers>
+#include <optional>
 
 #include <tbb/parallel_for.h>
 
@@ -9,16 +8,15 @@
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/statistics.h"
 #include "geometry/kernel/surface_distance.h"
+#include "geometry/kernel/touching_ball.h"
 
 namespace vesselbench {
 
 namespace {
 
-constexpr int kMostShrinkings = 40;  // a dozen suffice on vessels
-constexpr double kShrinks = 1e-3;    // less is the same ball [-]
-constexpr double kNearby = 1.5;      // of the radius: for the median
-constexpr int kMedians = 2;          // over neighbours, before that
-constexpr double kSkin = 1e-6;       // of the box: skips the wall that a ray starts on
+constexpr double kNearby = 1.5;  // of the radius: for the median
+constexpr int kMedians = 2;      // over neighbours, before that
+constexpr double kSkin = 1e-6;   // of the box: skips the wall that a ray starts on
 
 // The wall's vertices and the middles of its triangles.
 Positions samples_of(const Surface& wall) {
@@ -52,24 +50,6 @@ std::size_t nearest_sample(const BoxTree& tree, const Positions& samples, const 
     return nearest;
 }
 
-double shrunk(const BoxTree& tree, const Positions& samples, const Vec3& at, const Vec3& inward,
-              double radius) {
-    static const double kOwn = std::cos(std::numbers::pi / 6.0);
-    for (int step = 0; step < kMostShrinkings; ++step) {
-        const Vec3 centre = at + radius * inward;
-        const std::size_t i = nearest_sample(tree, samples, centre, radius * (1.0 - kShrinks));
-        if (i == samples.size()) break;
-        const Vec3 there = samples[i] - at;
-        const double height = inward.dot(there);
-        if (height <= 0.0) break;
-        const Vec3 seen = samples[i] - centre;
-        if (-inward.dot(seen) > kOwn * seen.norm()) break;
-        // The ball through both, tangential at `at`.
-        radius = std::min(radius, there.squaredNorm() / (2.0 * height));
-    }
-    return radius;
-}
-
 }  // namespace
 
 std::vector<double> touching_balls(const LayeredWall& wall, const Progress& progress) {
@@ -78,13 +58,18 @@ std::vector<double> touching_balls(const LayeredWall& wall, const Progress& prog
     const BoxTree tree = tree_of(samples);
     const double farthest = bounds(wall.wall).diagonal();
     std::vector<double> radii(wall.wall.vertex_count());
+    const auto nearest = [&](const Vec3& centre, double reach) -> std::optional<Vec3> {
+        const std::size_t i = nearest_sample(tree, samples, centre, reach);
+        return i == samples.size() ? std::nullopt : std::optional(samples[i]);
+    };
     tbb::parallel_for(std::size_t{0}, radii.size(), [&](std::size_t v) {
         progress.check_cancelled();
         const Vec3 &at = wall.wall.points()[v], inward = -wall.normals[v];
         if (inward.isZero()) return;
         const double skin = kSkin * farthest;
         const auto hit = search.first_hit(at + skin * inward, inward, farthest);
-        radii[v] = shrunk(tree, samples, at, inward, 0.5 * (hit ? hit->distance + skin : farthest));
+        const double across = hit ? hit->distance + skin : farthest;
+        radii[v] = touching_ball(at, inward, 0.5 * across, nearest);
     });
     return radii;
 }

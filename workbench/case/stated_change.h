@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "geometry/kernel/cross_section.h"
 #include "geometry/kernel/diagnostic.h"
 #include "geometry/kernel/vec3.h"
 
@@ -13,6 +14,12 @@ namespace vesselbench {
 struct ChangeZone {
     Vec3 centre = Vec3::Zero();  ///< [mm]
     double radius = 0.0;         ///< [mm]
+};
+
+/// A vessel end that an operation says it takes away.
+struct NamedLoss {
+    Vec3 tip = Vec3::Zero();  ///< on the line of its vessel, or in the middle of its rim [mm]
+    std::optional<Plane> plane = {};  ///< only what lies beyond goes; none: the whole branch
 };
 
 /// By how much a count may grow; less than 0: it may fall.
@@ -40,7 +47,11 @@ struct StatedChange {
     /// The farthest from the new wall that wall may lie which is gone [mm]: a sac or a vessel's end
     /// that is lost lies farther away.
     double wall_lost = std::numeric_limits<double>::infinity();
-    bool keeps_walls_apart = false;  ///< no more triangles cross where it changed something
+    /// Besides, so many radii of the ball that touches the wall there from inside [-]: what makes a
+    /// vessel thinner moves no wall as far as its line.
+    double radii_lost = 0.0;
+    std::vector<NamedLoss> named = {};  ///< ends that may go, however far
+    bool keeps_walls_apart = false;     ///< no more triangles cross where it changed something
     /// Share of the edges where it moved wall along which it may fold the wall over [-]: folds are
     /// what turns a wall into rubble. Asked only if the triangles stay.
     double folded = 1.0;

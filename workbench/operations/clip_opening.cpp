@@ -3,13 +3,13 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/unsmoothed.h"
-#include "workbench/case/stated_change.h"
 #include "workbench/operations/clip_opening/clipping.h"
 #include "workbench/operations/clip_opening/clipping_record.h"
 #include "workbench/operations/clip_opening/clipping_warnings.h"
 #include "workbench/operations/clip_opening/parameters.h"
 #include "workbench/operations/shared/opening_arguments.h"
 #include "workbench/operations/shared/replacing_stepper.h"
+#include "workbench/operations/shared/stated_changes.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {
@@ -89,9 +89,16 @@ private:
     Outcome made_;
 };
 
-/// Ends are cut off, and loops of vessels perhaps, but no vessel.
-StatedChange cut_ends(const Scene&, const Outcome&) {
-    return {.parts = kAnyGain, .handles = kAnyLoss, .rims = kAnyGrowth};
+/// The ends that its own record names are cut off, and loops of vessels perhaps, but no vessel.
+StatedChange cut_ends(const Scene& before, const Outcome& outcome) {
+    StatedChange stated{.parts = kAnyGain, .handles = kAnyLoss, .rims = kAnyGrowth};
+    add_kept_wall(stated, before, outcome);
+    for (const PlannedOpening& opening : openings_in(outcome.resolved.records("planes")))
+        stated.named.push_back({opening.place.tip, opening.place.plane});
+    if (!outcome.resolved.has("closings")) return stated;
+    for (const PlannedClosing& closing : closings_in(outcome.resolved.records("closings")))
+        if (closing.way == ClosingWay::RemoveStub) stated.named.push_back({closing.place});
+    return stated;
 }
 
 }  // namespace

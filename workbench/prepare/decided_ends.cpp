@@ -6,10 +6,8 @@
 #include <optional>
 #include <utility>
 
-#include <nlohmann/json.hpp>
-
 #include "geometry/kernel/errors.h"
-#include "workbench/case/point_json.h"
+#include "workbench/operations/clip_opening/clipping_record.h"
 #include "workbench/operations/clip_opening/parameters.h"
 #include "workbench/operations/shared/opening_arguments.h"
 #include "workbench/operations/table.h"
@@ -17,8 +15,6 @@
 namespace vesselbench {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// A place that a user gave lies so near to the end that it means [diameters].
 constexpr double kNamedReach = 1.5;
@@ -60,6 +56,7 @@ public:
     RevisionEnds(const EditRecord& edit, const ResultRecord& ran)
         : edit_(edit),
           ran_(ran.resolved),
+          report_(ran.report),
           leaves_closed_(ran_.is_word("closed_ends", "leave")),
           inlets_(points_of(ran_, "inlet")),
           open_(points_of(ran_, "open")),
@@ -69,11 +66,9 @@ public:
     }
 
     /// Of every end that was found; empty: the report does not say.
-    /// \throw Json::exception if it is none of this program
-    [[nodiscard]] std::vector<RankedEnd> reported(const Json& report) const {
+    [[nodiscard]] std::vector<RankedEnd> reported() const {
         std::vector<RankedEnd> ends;
-        if (!report.is_object() || !report.contains("ends")) return ends;
-        for (const Json& end : report.at("ends"))
+        for (const ReportedEnd& end : reported_ends(report_))
             if (auto found = reported_end(end)) ends.push_back(std::move(*found));
         return ends;
     }
@@ -102,24 +97,21 @@ private:
     }
 
     /// None: nothing was decided, as of a part of another end.
-    [[nodiscard]] std::optional<RankedEnd> reported_end(const Json& end) const {
-        const Json& opening = end.at("opening");
-        const Vec3 place = point_from(end.at("place_mm"));
-        const auto diameter = end.at("diameter_mm").get<double>();
-        const double reach = kNamedReach * diameter;
-        if (opening.is_string())
-            return decided(
-                place, diameter, role_of(opening.get<std::string>()),
-                ran_.has("tip") || is_near(inlets_, place, reach) || is_near(open_, place, reach));
-        if (end.at("number").is_null() || end.at("fate") != to_string(EndFate::Closed))
-            return std::nullopt;
-        const bool named = is_near(closed_, place, reach);
+    [[nodiscard]] std::optional<RankedEnd> reported_end(const ReportedEnd& end) const {
+        const double reach = kNamedReach * end.diameter;
+        if (end.opening)
+            return decided(end.place, end.diameter, role_of(*end.opening),
+                           ran_.has("tip") || is_near(inlets_, end.place, reach) ||
+                               is_near(open_, end.place, reach));
+        if (!end.numbered || end.fate != to_string(EndFate::Closed)) return std::nullopt;
+        const bool named = is_near(closed_, end.place, reach);
         if (leaves_closed_ && !named) return std::nullopt;
-        return decided(place, diameter, EndRole::Closed, named);
+        return decided(end.place, end.diameter, EndRole::Closed, named);
     }
 
     const EditRecord& edit_;
     const Arguments& ran_;
+    const std::string& report_;
     bool leaves_closed_;
     Positions inlets_, open_, closed_;
     std::vector<PlannedOpening> openings_;
@@ -128,7 +120,7 @@ private:
 
 /// A revision whose planes were given reports no other ends: what an earlier one closed ranks
 /// behind its openings.
-/// \throw UsageError, Json::exception if a record is none of this program
+/// \throw UsageError if a record is none of this program
 std::vector<RankedEnd> ends_of_edit(const Snapshot& made, EditRef edit) {
     std::vector<RankedEnd> opened;
     for (EditRef ref = edit; ref.revision > 0; --ref.revision) {
@@ -137,7 +129,7 @@ std::vector<RankedEnd> ends_of_edit(const Snapshot& made, EditRef edit) {
         const ResultRecord& ran = *past->second.first;
         const RevisionEnds ends(past->second.edit, ran);
         if (ref == edit) opened = ends.opened();
-        std::vector<RankedEnd> all = ends.reported(Json::parse(ran.report, nullptr, false));
+        std::vector<RankedEnd> all = ends.reported();
         if (all.empty()) continue;
         if (ref == edit) return all;
         std::erase_if(all, [](const RankedEnd& end) { return end.end.role != EndRole::Closed; });
@@ -152,8 +144,6 @@ std::vector<RankedEnd> readable_ends(const Snapshot& made, EditRef edit) {
     try {
         return ends_of_edit(made, edit);
     } catch (const UsageError&) {
-        return {};
-    } catch (const Json::exception&) {
         return {};
     }
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <unordered_set>
+#include <utility>
 
 #include "geometry/kernel/content_key.h"
 
@@ -122,6 +123,23 @@ std::vector<std::uint8_t> triangles_missing_in(
             missing[t] = 1;
     }
     return missing;
+}
+
+std::vector<VertexId> corners_of(const Surface& surface, const std::vector<std::uint8_t>& flagged) {
+    std::vector<std::uint8_t> seen(surface.vertex_count(), 0);
+    std::vector<VertexId> corners;
+    for (TriangleId t = 0; t < flagged.size(); ++t)
+        if (flagged[t])
+            for (const VertexId v : surface.triangles()[t])
+                if (!std::exchange(seen[v], 1)) corners.push_back(v);
+    return corners;
+}
+
+bool meets(const Surface& surface, TriangleId t, const Bounds& box) {
+    const auto& [a, b, c] = surface.triangles()[t];
+    const Vec3 &p = surface.points()[a], &q = surface.points()[b], &r = surface.points()[c];
+    return (p.cwiseMin(q).cwiseMin(r).array() <= box.max.array()).all() &&
+           (p.cwiseMax(q).cwiseMax(r).array() >= box.min.array()).all();
 }
 
 }  // namespace vesselbench

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/kernel/measure.h"
 #include "geometry/kernel/surface.h"
 #include "workbench/case/stated_change.h"
 
@@ -29,5 +30,12 @@ namespace vesselbench {
 [[nodiscard]] std::vector<std::uint8_t> triangles_missing_in(
     const Surface& other, const Surface& surface,
     const std::optional<std::vector<ChangeZone>>& zones);
+
+/// Vertices of the flagged triangles, each once.
+[[nodiscard]] std::vector<VertexId> corners_of(const Surface& surface,
+                                               const std::vector<std::uint8_t>& flagged);
+
+/// True if a triangle's box meets another one.
+[[nodiscard]] bool meets(const Surface& surface, TriangleId t, const Bounds& box);
 
 }  // namespace vesselbench

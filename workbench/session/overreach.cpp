@@ -9,8 +9,8 @@
 #include "geometry/kernel/derived_cache.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/self_intersections.h"
-#include "geometry/kernel/surface_distance.h"
 #include "workbench/session/changed_wall.h"
+#include "workbench/session/lost_wall.h"
 
 namespace vesselbench {
 
@@ -77,55 +77,12 @@ Finding volume_beyond(const StatedChange& stated, const Surface& before, const S
                   {"stated_mm3", is > was ? stated.volume_gained : stated.volume_lost}});
 }
 
-/// Vertices of the flagged triangles, each once.
-Positions corners_of(const Surface& surface, const std::vector<std::uint8_t>& flagged) {
-    std::vector<std::uint8_t> seen(surface.vertex_count(), 0);
-    Positions corners;
-    for (TriangleId t = 0; t < flagged.size(); ++t)
-        if (flagged[t])
-            for (const VertexId v : surface.triangles()[t])
-                if (!std::exchange(seen[v], 1)) corners.push_back(surface.points()[v]);
-    return corners;
-}
-
-/// True if a triangle's box meets another one.
-bool meets(const Surface& surface, TriangleId t, const Bounds& box) {
-    const auto& [a, b, c] = surface.triangles()[t];
-    const Vec3 &p = surface.points()[a], &q = surface.points()[b], &r = surface.points()[c];
-    return (p.cwiseMin(q).cwiseMin(r).array() <= box.max.array()).all() &&
-           (p.cwiseMax(q).cwiseMax(r).array() >= box.min.array()).all();
-}
-
-/// The triangles within `reach` of some places, at least [mm]: a tree of them is made sooner than
-/// one of the whole surface.
-std::vector<Triangle> triangles_near(const Surface& surface, const Positions& places,
-                                     double reach) {
-    Bounds box = bounds(places);
-    box.min.array() -= reach;
-    box.max.array() += reach;
-    std::vector<Triangle> near;
-    for (TriangleId t = 0; t < surface.triangle_count(); ++t)
-        if (meets(surface, t, box)) near.push_back(surface.triangles()[t]);
-    return near;
-}
-
-Finding wall_beyond(const StatedChange& stated, const Surface& before, const Surface& after) {
-    if (std::isinf(stated.wall_lost)) return std::nullopt;
-    const Positions gone = corners_of(before, triangles_missing_in(after, before, stated.zones));
-    if (gone.empty()) return std::nullopt;
-    const auto farthest_from = [&](const SurfaceDistance& wall) {
-        const std::vector<SurfacePoint> nearest = wall.closest_points(gone);
-        const auto farthest = std::ranges::max_element(nearest, {}, &SurfacePoint::distance);
-        return std::pair(farthest->distance,
-                         gone[static_cast<std::size_t>(farthest - nearest.begin())]);
-    };
-    const std::vector<Triangle> near = triangles_near(after, gone, stated.wall_lost);
-    if (!near.empty() &&
-        farthest_from(SurfaceDistance(after.points(), near)).first <= stated.wall_lost)
-        return std::nullopt;
-    const auto [distance, place] = farthest_from(distance_to(after));
-    return error("edit-loses-wall", place,
-                 {{"distance_mm", distance}, {"stated_mm", stated.wall_lost}});
+Finding wall_beyond(const StatedChange& stated, const Surface& before, const Surface& after,
+                    const Progress& progress) {
+    const auto lost = lost_wall(stated, before, after, progress);
+    if (!lost) return std::nullopt;
+    return error("edit-loses-wall", lost->place,
+                 {{"distance_mm", lost->distance}, {"stated_mm", lost->stated}});
 }
 
 /// Triangles of the surface whose boxes meet that of the flagged ones, with the flags.
@@ -135,7 +92,8 @@ struct Nearby {
 };
 
 Nearby near_flagged(const Surface& surface, const std::vector<std::uint8_t>& flagged) {
-    const Positions corners = corners_of(surface, flagged);
+    Positions corners;
+    for (const VertexId v : corners_of(surface, flagged)) corners.push_back(surface.points()[v]);
     Nearby near;
     if (corners.empty()) return near;
     const Bounds box = bounds(corners);
@@ -224,7 +182,7 @@ Finding beyond(const StatedChange& stated, const Surface& before, const Surface&
     progress.check_cancelled();
     if (auto found = zone_beyond(stated, before, after)) return found;
     if (auto found = volume_beyond(stated, before, after)) return found;
-    if (auto found = wall_beyond(stated, before, after)) return found;
+    if (auto found = wall_beyond(stated, before, after, progress)) return found;
     if (auto found = folds_beyond(stated, before, after)) return found;
     progress.check_cancelled();
     return crossings_beyond(stated, before, after, progress);

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "geometry/editing/hole_filling.h"
 #include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/edges.h"
 #include "geometry/kernel/measure.h"
@@ -68,26 +67,10 @@ std::string way_to_vessel(SurfaceOrigin source) {
 
 }  // namespace
 
-double closed_volume(const Surface& surface) {
-    const Positions& x = surface.points();
-    const Vec3 origin = x[surface.triangles()[0][0]];
-    const auto under = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
-        return (a - origin).dot((b - origin).cross(c - origin)) / 6.0;
-    };
-    double volume = 0.0;
-    for (const auto& [a, b, c] : surface.triangles()) volume += under(x[a], x[b], x[c]);
-    for (const auto& loop : surface.topology->boundary_loops()) {
-        const Vec3 centre = loop_centre(surface, loop);
-        for (std::size_t i = 0; i < loop.size(); ++i)
-            volume += under(centre, x[loop[(i + 1) % loop.size()]], x[loop[i]]);
-    }
-    return std::abs(volume);
-}
-
 void require_lumen(const Surface& surface, SurfaceOrigin source) {
     if (surface.empty()) return;
     const double extent = bounds(surface).diagonal();
-    const double radius = 2.0 * closed_volume(surface) / area(surface);
+    const double radius = 2.0 * std::abs(volume(surface)) / area(surface);
     if (!(extent < kSlimmest * radius))
         throw DiagnosedInput({.code = "surface-is-sheet",
                               .figures = {{"width_mm", extent}, {"thickness_mm", radius}}});
@@ -99,10 +82,10 @@ void require_lumen(const Surface& surface, SurfaceOrigin source) {
 
 void require_vessel_size(const Surface& surface, SurfaceOrigin source) {
     if (surface.empty()) return;
-    const double volume = closed_volume(surface);
-    if (volume > kLargestLumen)
+    const double enclosed = std::abs(volume(surface));
+    if (enclosed > kLargestLumen)
         throw DiagnosedInput({.code = "larger-than-vessels",
-                              .figures = {{"litres", volume / kLitre}},
+                              .figures = {{"litres", enclosed / kLitre}},
                               .words = {{"way", way_to_vessel(source)}}});
 }
 

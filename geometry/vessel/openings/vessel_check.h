@@ -18,9 +18,6 @@ void require_lumen(const Surface& surface, SurfaceOrigin source = SurfaceOrigin:
 /// \throw InvalidInput; the text says what may help such a source
 void require_vessel_size(const Surface& surface, SurfaceOrigin source = SurfaceOrigin::Intensities);
 
-/// Volume enclosed by a surface whose open borders are closed by fans [mm^3].
-[[nodiscard]] double closed_volume(const Surface& surface);
-
 /// True if a branch is a tube: longer than 1.5 of its widest diameters, without its furcations. An
 /// organ or a box has centerlines, too, but none that long.
 [[nodiscard]] bool has_tube(const CenterlineGraph& graph);

@@ -1,11 +1,14 @@
 #include "workbench/operations/clip_opening/clipping_record.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
+#include "geometry/kernel/errors.h"
 #include "geometry/vessel/openings/opening_names.h"
+#include "workbench/case/json_fields.h"
 #include "workbench/operations/shared/opening_arguments.h"
 #include "workbench/operations/shared/opening_json.h"
 
@@ -74,6 +77,31 @@ ordered_json verdict_json(const EndRecord& end) {
             {"features", std::move(features)}};
 }
 
+/// \throw InvalidInput if it is none of this program
+ReportedOdds odds_of_report(const ordered_json& odds) {
+    JsonFields fields(odds, "odds");
+    return {fields.required<double>("vessel_mm"),
+            {fields.required<double>("opening"), fields.required<double>("sac"),
+             fields.required<double>("bump")}};
+}
+
+/// \throw InvalidInput if it is none of this program
+ReportedEnd end_of_report(const ordered_json& end) {
+    JsonFields fields(end, "end");
+    const auto place = fields.required<std::array<double, 3>>("place_mm");
+    const auto has = [&](const char* key) {
+        const ordered_json* field = fields.child(key);
+        return field != nullptr && !field->is_null();
+    };
+    ReportedEnd made{.place = Vec3(place[0], place[1], place[2]),
+                     .diameter = fields.optional<double>("diameter_mm").value_or(0.0),
+                     .numbered = has("number"),
+                     .fate = fields.optional<std::string>("fate").value_or("")};
+    if (has("opening")) made.opening = fields.required<std::string>("opening");
+    if (has("odds")) made.odds = odds_of_report(end.at("odds"));
+    return made;
+}
+
 }  // namespace
 
 ordered_json ends_json(const OpeningPlan& plan, const std::vector<std::string>& names) {
@@ -115,6 +143,19 @@ ClippingRecord record_of(const Surface& before, const Clipping& made, bool decid
     (*report)["openings"] = std::move(openings);
     if (decided) (*report)["ends"] = ends_json(plan, names);
     return {planes_argument(plan.openings), names_argument(chosen), std::move(report)};
+}
+
+std::vector<ReportedEnd> reported_ends(const std::string& report) {
+    std::vector<ReportedEnd> ends;
+    const ordered_json parsed = ordered_json::parse(report, nullptr, false);
+    if (!parsed.is_object() || !parsed.contains("ends")) return ends;
+    for (const ordered_json& end : parsed.at("ends")) {
+        try {
+            ends.push_back(end_of_report(end));
+        } catch (const InvalidInput&) {  // left out
+        }
+    }
+    return ends;
 }
 
 }  // namespace vesselbench
