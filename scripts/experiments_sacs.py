@@ -77,8 +77,9 @@ the length is the largest distance of the wall from the neck's middle, the heigh
 (`geometry/vessel/sac/sac_measures.h` has definitions and sources).
 
 {summed}
-For {len(found) - len(proposed)} sacs no neck is proposed, since no line leads to the dome or no plane separates it; {len(proposed) - len(sure)}
-proposals are in doubt by themselves: their outline is not round, or wall lies far beside it. Both limits were chosen on these cases.
+For {len(found) - len(proposed)} sacs no neck is proposed, since no line leads to the dome or no plane separates it;
+{len(proposed) - len(sure)} proposals are in doubt by themselves: their outline is not round, or wall lies far beside it.
+Both limits, and the cost that the plane minimises, were chosen on these cases.
 
 {table(HEAD, [row_of(sac) for sac in found])}"""
 

@@ -610,7 +610,8 @@ constexpr CatalogueText kTexts[] = {
      "{loops#loop}; make it anew from its image, with another threshold or a mask"},
     {"no-branch-at-tip", "no branch has its tip near {place}"},
     {"no-neck",
-     "no plane separates a sac with its dome at {place} from the vessel's ends by one closed curve"},
+     "no plane separates a sac with its dome at {place} from the vessel's ends by one closed "
+     "curve"},
     {"branch-without-parent",
      "the vessel with its tip at {place} has no parent vessel: nothing would remain"},
     {"no-closed-section",
