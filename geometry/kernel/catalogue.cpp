@@ -405,8 +405,7 @@ constexpr CatalogueText kTexts[] = {
      "wall may have moved; separate the walls or use a smaller {fix} if that part matters"},
     {"beyond-resolution",
      "the surface is off by up to {off_mm} mm, in spite of shorter edges there ({place}); a "
-     "smaller "
-     "{fix} may bring it nearer"},
+     "smaller {fix} may bring it nearer"},
     {"opening-lost",
      "edges of {edge_mm} mm are too coarse for the opening {opening}, {diameter_mm} mm wide, which "
      "would be lost: use {fix} or less"},
@@ -913,8 +912,7 @@ constexpr CatalogueText kTexts[] = {
      "rewritten {where}"},
     {"record-cut-off",
      "{file}: {reviewer} saw entry {number} of the record, which ends with entry {last} now: its "
-     "end "
-     "was cut off"},
+     "end was cut off"},
     {"record-other-project",
      "{file}: {reviewer} reviewed {name}, a project with another id: it is another project, or the "
      "record of this one was begun anew"},

@@ -40,16 +40,6 @@ Surface vessel_without(Part part) {
     return *run("repair", raw, {{"caps", false}}).scene.surface;
 }
 
-/// The part drawn into the vessel it is on: its triangles stay, without anything in them.
-Surface drawn_in(const Surface& surface, Part part) {
-    return mapped(surface, [&](const Vec3& p) {
-        const bool gone = part == Part::Sac ? p.y() < -kParent : p.x() > kParent;
-        if (!gone) return p;
-        const Vec3 out = Vec3(p.x(), p.y(), 0).normalized();
-        return Vec3(kParent * out.x(), kParent * out.y(), p.z());
-    });
-}
-
 /// What the lying row below does.
 std::string copied;
 Part taken = Part::None;
@@ -58,12 +48,8 @@ Part taken = Part::None;
 Outcome lie(const Scene& scene, const Arguments& arguments, Progress& progress) {
     const Operation& honest = find_operation(copied);
     Scene without = scene;
-    const bool moves_alone = copied == "smooth";
-    if (taken != Part::None && !moves_alone) without.surface = vessel_without(taken);
-    Outcome outcome = run_here(honest, without, checked_arguments(honest, arguments), progress);
-    if (taken != Part::None && moves_alone)
-        outcome.scene.surface = drawn_in(*outcome.scene.surface, taken);
-    return outcome;
+    if (taken != Part::None) without.surface = vessel_without(taken);
+    return run_here(honest, without, checked_arguments(honest, arguments), progress);
 }
 
 const Operation& find_liar(const std::string& name) {
@@ -106,8 +92,7 @@ const Arguments kCutAll{{"check", std::string("none")}};
 SCENARIO("A sac or an end that is gone without being named is refused with its place",
          "[workbench][overreach]") {
     const auto [name, arguments] =
-        GENERATE(std::pair<std::string, Arguments>{"smooth", {}},
-                 std::pair<std::string, Arguments>{"remesh", {{"radius", std::string("rays")}}},
+        GENERATE(std::pair<std::string, Arguments>{"remesh", {{"radius", std::string("rays")}}},
                  std::pair<std::string, Arguments>{"decimate", {}},
                  std::pair<std::string, Arguments>{"subdivide", {}},
                  std::pair<std::string, Arguments>{"clip-opening", kCutAll});

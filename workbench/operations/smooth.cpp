@@ -213,13 +213,6 @@ std::vector<Parameter> parameter_table() {
     return table;
 }
 
-/// Vertices move, and vessels may become thinner, but none is lost.
-StatedChange smoothed_vessels(const Scene& before, const Outcome& outcome) {
-    StatedChange stated{.keeps_triangles = true, .remedies = {{.arguments = {{"iterations", ""}}}}};
-    add_kept_wall(stated, before, outcome);
-    return stated;
-}
-
 }  // namespace
 
 Operation smooth_operation() {
@@ -233,7 +226,7 @@ Operation smooth_operation() {
             .stays_here = &asks_for_gpu,
             .suggested = &suggested_arguments,
             .decided = &decided_smoothing,
-            .may_change = &smoothed_vessels,
+            .may_change = &moved_vertices,
             .thesis = "3.3.4, 5",
             .recipe = {.volume_remedies = {{.arguments = {{"iterations", ""}}},
                                            {.arguments = {{"filter", "taubin"}}}}},
