@@ -10,7 +10,6 @@
 #include "geometry/kernel/diagnosed_error.h"
 #include "tests/support/iso_surface.h"
 #include "tests/support/paths.h"
-#include "tests/support/shapes.h"
 #include "tests/workbench/test_operations.h"
 #include "workbench/operations/table.h"
 #include "workbench/session/session.h"
@@ -92,8 +91,7 @@ const Arguments kCutAll{{"check", std::string("none")}};
 SCENARIO("A sac or an end that is gone without being named is refused with its place",
          "[workbench][overreach]") {
     const auto [name, arguments] =
-        GENERATE(std::pair<std::string, Arguments>{"remesh", {{"radius", std::string("rays")}}},
-                 std::pair<std::string, Arguments>{"decimate", {}},
+        GENERATE(std::pair<std::string, Arguments>{"decimate", {}},
                  std::pair<std::string, Arguments>{"subdivide", {}},
                  std::pair<std::string, Arguments>{"clip-opening", kCutAll});
     INFO(name);

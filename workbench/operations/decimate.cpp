@@ -293,7 +293,7 @@ Operation decimate_operation() {
             .parameters = parameter_table(),
             .start = &started<LiveDecimation>,
             .decided = &decided_decimation,
-            .may_change = &kept_vessels,
+            .may_change = &kept_vessels_and_sacs,
             .thesis = "5.6, 7.2",
             .search = {.parameters = &searched_parameters,
                        .rivals = {"triangles"},

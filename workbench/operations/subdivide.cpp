@@ -62,7 +62,7 @@ Operation subdivide_operation() {
             .summary = "split every triangle into four and smooth (Loop); caps stay flat",
             .parameters = subdivide_parameters(),
             .run = &run,
-            .may_change = &kept_vessels,
+            .may_change = &kept_vessels_and_sacs,
             .thesis = "3.3.1, 4.2.5",
             .search = {.parameters = &searched_parameters},
             .example = {.changed = {{"iterations", std::int64_t{2}}}}};

@@ -21,8 +21,8 @@ double typical_edge(const Surface& surface) {
 
 }  // namespace
 
-StatedChange kept_vessels(const Scene& before, const Outcome& outcome) {
-    StatedChange stated{.parts = kAnyGain, .handles = kAnyLoss};
+StatedChange kept_vessels_and_sacs(const Scene& before, const Outcome& outcome) {
+    StatedChange stated = kept_vessels(before, outcome);
     add_kept_wall(stated, before, outcome);
     return stated;
 }

@@ -13,8 +13,13 @@ namespace vesselbench {
 }
 
 /// Other triangles of the same vessels; what touched at a vertex may come apart, and a loop with
-/// it. No sac and no end is lost.
-[[nodiscard]] StatedChange kept_vessels(const Scene& before, const Outcome& outcome);
+/// it.
+[[nodiscard]] inline StatedChange kept_vessels(const Scene&, const Outcome&) {
+    return {.parts = kAnyGain, .handles = kAnyLoss};
+}
+
+/// The same, and no sac and no end is lost.
+[[nodiscard]] StatedChange kept_vessels_and_sacs(const Scene& before, const Outcome& outcome);
 
 /// Adds that no wall is lost beyond a few edges and most of a vessel's radius: what lies farther
 /// from the new wall was a sac or a vessel's end.
