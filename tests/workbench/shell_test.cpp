@@ -42,7 +42,7 @@ std::string offered(const std::string& words) {
 SCENARIO("bash completes what the tables hold", "[workbench][shell]") {
     CHECK(offered("pre") == "prepare\n");
     CHECK(offered("prepare in.stl --for ''") == "cfd rp planning simulation\n");
-    CHECK(offered("prepare in.stl --re") == "--recipe --resume\n");
+    CHECK(offered("prepare in.stl --re") == "--recipe --refine --resume\n");
     CHECK(offered("batch cases.csv --engine ''") == "local slurm\n");
     CHECK_THAT(offered("apply p.vbench re"), Contains("remesh") && Contains("repair"));
     CHECK(offered("apply p.vbench smooth it") == "iterations=\n");
