@@ -42,7 +42,8 @@ LargestDeviation refine_where_off(const Surface& source, const Surface& result, 
     for (const SurfacePoint& nearest : distance_to(source).closest_points(triangle_centres(result)))
         for (const VertexId v : source.triangles()[nearest.triangle])
             note(v, nearest.distance, nearest.point);
-    for (std::size_t v = 0; v < sizes.size(); ++v) sizes[v] *= factors[v];
+    for (std::size_t v = 0; v < sizes.size(); ++v)
+        sizes[v] = std::max(factors[v] * sizes[v], std::min(sizes[v], resolution));
     return largest;
 }
 

@@ -13,7 +13,8 @@ struct LargestDeviation {
     Vec3 place = Vec3::Zero();  ///< on the source [mm]
 };
 
-/// Shortens the target edges of the source where the result is off by more than the resolution.
+/// Shortens the target edges of the source where the result is off by more than the resolution,
+/// down to edges as long as it: shorter ones bring nothing.
 /// Compared are the vertices of the source with the result, and the centres of the result's
 /// triangles with the source; the result's vertices lie on the source.
 /// \param resolution [mm], > 0

@@ -12,6 +12,16 @@ namespace vesselbench {
 
 namespace {
 
+/// The operation that makes edges of a length around a place.
+const Operation& refining_operation() {
+    const auto takes = [](const Operation& row, const char* name) {
+        return std::ranges::find(row.parameters, name, &Parameter::name) != row.parameters.end();
+    };
+    return *std::ranges::find_if(operation_table(), [&](const Operation& row) {
+        return takes(row, "at") && takes(row, "within") && takes(row, "edge");
+    });
+}
+
 std::vector<std::string> parts_between_colons(const std::string& text) {
     std::vector<std::string> parts;
     std::istringstream stream(text);
@@ -28,7 +38,7 @@ Recipe refinements(std::span<const std::string> texts) {
         if (parts.size() != 3)
             throw UsageError("--refine '" + printable(text) +
                              "': give x,y,z:radius:edge in mm, such as 3,1.5,-20:4:0.1");
-        GivenArguments given(find_operation("remesh"));
+        GivenArguments given(refining_operation());
         given.set("at", parts[0]);
         given.set("within", parts[1]);
         given.set("edge", parts[2]);
