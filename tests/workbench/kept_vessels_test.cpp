@@ -10,6 +10,7 @@
 #include "geometry/kernel/diagnosed_error.h"
 #include "tests/support/iso_surface.h"
 #include "tests/support/paths.h"
+#include "tests/support/shapes.h"
 #include "tests/workbench/test_operations.h"
 #include "workbench/operations/table.h"
 #include "workbench/session/session.h"
