@@ -9,6 +9,12 @@
 
 namespace vesselbench {
 
+/// Mean of its corners.
+[[nodiscard]] inline Vec3 triangle_centre(const Positions& points, const Triangle& triangle) {
+    const auto& [a, b, c] = triangle;
+    return (points[a] + points[b] + points[c]) / 3.0;
+}
+
 /// Largest of (t - 60) / 120 and (60 - t) / 60 over the angles t [deg]: 0 for an equilateral
 /// triangle, 1 for a degenerate one.
 [[nodiscard]] inline double equiangle_skewness(const Vec3& a, const Vec3& b, const Vec3& c) {

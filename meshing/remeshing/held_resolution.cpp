@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "geometry/kernel/surface_distance.h"
+#include "geometry/kernel/triangle_shape.h"
 
 namespace vesselbench {
 
@@ -18,22 +19,18 @@ double shortening(double distance, double resolution) {
 Positions triangle_centres(const Surface& surface) {
     Positions centres;
     centres.reserve(surface.triangle_count());
-    const Positions& points = surface.points();
-    for (const auto& [a, b, c] : surface.triangles())
-        centres.push_back((points[a] + points[b] + points[c]) / 3.0);
+    for (const Triangle& triangle : surface.triangles())
+        centres.push_back(triangle_centre(surface.points(), triangle));
     return centres;
 }
 
 }  // namespace
 
-LargestDeviation refine_where_off(const Surface& source, const Surface& result, double resolution,
-                                  std::vector<double>& sizes, const Progress& cancel) {
-    LargestDeviation largest;
-    std::vector<double> factors(sizes.size(), 1.0);
+Deviations deviations_from(const Surface& source, const Surface& result, const Progress& cancel) {
+    Deviations deviations{.at = std::vector<double>(source.vertex_count(), 0.0)};
     const auto note = [&](VertexId v, double distance, const Vec3& place) {
-        if (distance > largest.distance) largest = {distance, place};
-        if (distance > resolution)
-            factors[v] = std::min(factors[v], shortening(distance, resolution));
+        deviations.at[v] = std::max(deviations.at[v], distance);
+        if (distance > deviations.largest.distance) deviations.largest = {distance, place};
     };
     const auto from_source = SurfaceDistance(result).closest_points(source.points());
     for (VertexId v = 0; v < from_source.size(); ++v)
@@ -42,9 +39,15 @@ LargestDeviation refine_where_off(const Surface& source, const Surface& result, 
     for (const SurfacePoint& nearest : distance_to(source).closest_points(triangle_centres(result)))
         for (const VertexId v : source.triangles()[nearest.triangle])
             note(v, nearest.distance, nearest.point);
+    return deviations;
+}
+
+void shorten_where_off(const Deviations& deviations, double resolution,
+                       std::vector<double>& sizes) {
     for (std::size_t v = 0; v < sizes.size(); ++v)
-        sizes[v] = std::max(factors[v] * sizes[v], std::min(sizes[v], resolution));
-    return largest;
+        if (deviations.at[v] > resolution)
+            sizes[v] = std::max(shortening(deviations.at[v], resolution) * sizes[v],
+                                std::min(sizes[v], resolution));
 }
 
 }  // namespace vesselbench

@@ -27,7 +27,7 @@ namespace {
 
 constexpr int kMendRounds = 5;          // of the same around bad places
 constexpr int kMostAttempts = 3;        // to remove bad places, finer there each time
-constexpr int kMostToHold = 6;          // also to come near enough to the source
+constexpr int kMostToHold = 6;          // to come near enough to the source
 constexpr double kLeastQuality = 0.36;  // of 1 - skewness and radius ratio; solvers want 0.35
 constexpr double kFiner = 0.6;
 
@@ -92,11 +92,9 @@ bool is_ill_shaped(const Surface& surface, TriangleId t) {
 
 /// The places where the result crosses itself, or a triangle could not be made well-shaped.
 Positions bad_places(const Surface& result, const Progress& cancel) {
-    const Positions& points = result.points();
     Positions places;
     const auto add = [&](TriangleId t) {
-        const auto& [a, b, c] = result.triangles()[t];
-        places.push_back((points[a] + points[b] + points[c]) / 3.0);
+        places.push_back(triangle_centre(result.points(), result.triangles()[t]));
     };
     for (const auto& [s, t] : self_intersections(result, cancel)) {
         add(s);
@@ -196,48 +194,76 @@ Surface parted(const Surface& source, const Remesher& remesher, const Surface& r
     refuse_crossing(source, result);
 }
 
-/// What has to be found in a result, or edges become shorter where it is not.
-struct Aims {
-    double gradation = 1.5;
-    double held = 0.0;  ///< the surface stays this close to its source [mm]; 0: no matter
-};
-
-/// Shortens the edges where the result is off by more than is held, unless that makes too many
-/// triangles.
-/// \return whether it did; the report says where it is off
-bool refine_to_hold(const Surface& source, const Surface& result, const Aims& aims,
-                    std::vector<double>& sizes, RemeshReport& report, const Progress& cancel) {
-    report.beyond_resolution.reset();
-    if (!(aims.held > 0.0)) return false;
-    std::vector<double> finer = sizes;
-    const LargestDeviation off = refine_where_off(source, result, aims.held, finer, cancel);
-    if (off.distance <= aims.held) return false;
-    report.beyond_resolution = off;
-    limit_slope(source, slope_of(aims.gradation), finer, cancel);
-    if (expected_count(source, finer) > kMostChosen) return false;
-    sizes = std::move(finer);
-    return true;
+/// \param sizes target edges [mm], #V; those of the result afterwards
+Surface remeshed_until_sound(const Surface& surface, Remesher& remesher, std::vector<double>& sizes,
+                             double gradation, RemeshReport& report, const Progress& progress) {
+    constexpr double kFirst = 0.7, kLast = 0.95, kMore = (kLast - kFirst) / kMostAttempts;
+    Surface result = remeshed(remesher, 0, progress.part(0.0, kFirst));
+    for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
+        const Positions places = bad_places(result, progress.silent());
+        if (places.empty()) return result;
+        refine(surface, places, gradation, sizes);
+        remesher.set_sizes(target_lengths(sizes));
+        const double from = kFirst + attempt * kMore;
+        result = remeshed(remesher, kRemeshRounds - kMendRounds, progress.part(from, from + kMore));
+    }
+    return parted(surface, remesher, result, report, progress.part(kLast, 1.0));
 }
 
-Surface remeshed_until_sound(const Surface& surface, std::vector<double> sizes, const Aims& aims,
-                             RemeshReport& report, const Progress& progress) {
-    check_count(surface, sizes, report.edge);
-    const int attempts = aims.held > 0.0 ? kMostToHold : kMostAttempts;
-    constexpr double kFirst = 0.7, kLast = 0.95;
-    const double more = (kLast - kFirst) / attempts;
-    Remesher remesher(surface, target_lengths(sizes), surface, progress);
-    Surface result = remeshed(remesher, 0, progress.part(0.0, kFirst));
-    for (int attempt = 0; attempt < attempts; ++attempt) {
+void report_deviation(const Deviations& off, double resolution, RemeshReport& report) {
+    report.beyond_resolution.reset();
+    if (off.largest.distance > resolution) report.beyond_resolution = off.largest;
+}
+
+/// Remeshes a result with shorter edges as long as it is off its source by more than is held. One
+/// that crosses itself, or is worse shaped, is not taken: shorter edges show crossings of the
+/// source that longer ones bridge.
+/// \param first without crossings
+/// \return the last one taken; the report says where it is off
+Surface held(const Surface& source, Remesher& remesher, Surface first, std::vector<double> sizes,
+             const RemeshParameters& parameters, RemeshReport& report, const Progress& progress) {
+    const std::size_t most_ill_shaped = ill_shaped_count(first);
+    Surface taken = first, result = std::move(first);
+    for (int attempt = 0;; ++attempt) {
+        const Deviations off = deviations_from(source, result, progress.silent());
         const Positions places = bad_places(result, progress.silent());
-        const bool finer = refine_to_hold(surface, result, aims, sizes, report, progress.silent());
-        if (places.empty() && !finer) return result;
-        if (!places.empty()) refine(surface, places, aims.gradation, sizes);
+        const std::size_t ill_shaped = ill_shaped_count(result);
+        if (ill_shaped <= most_ill_shaped && places.size() == ill_shaped) {
+            taken = result;
+            report_deviation(off, parameters.resolution, report);
+            if (!report.beyond_resolution) return taken;
+        }
+        if (attempt == kMostToHold) return taken;
+        shorten_where_off(off, parameters.resolution, sizes);
+        limit_slope(source, slope_of(parameters.gradation), sizes, progress.silent());
+        if (!places.empty()) refine(source, places, parameters.gradation, sizes);
+        if (expected_count(source, sizes) > kMostChosen) return taken;
         remesher.set_sizes(target_lengths(sizes));
-        const double from = kFirst + attempt * more;
-        result = remeshed(remesher, kRemeshRounds - kMendRounds, progress.part(from, from + more));
+        const double from = static_cast<double>(attempt) / kMostToHold;
+        result = remeshed(remesher, kRemeshRounds - kMendRounds,
+                          progress.part(from, from + 1.0 / kMostToHold));
     }
-    refine_to_hold(surface, result, aims, sizes, report, progress.silent());
-    return parted(surface, remesher, result, report, progress.part(kLast, 1.0));
+}
+
+/// \param sizes target edges [mm], #V
+/// \param hold whether the parameters' resolution is held
+Surface remeshed_by(const Surface& surface, std::vector<double> sizes,
+                    const RemeshParameters& parameters, bool hold, RemeshReport& report,
+                    const Progress& progress) {
+    check_count(surface, sizes, report.edge);
+    const double sound = hold ? 0.5 : 1.0;
+    Remesher remesher(surface, target_lengths(sizes), surface, progress);
+    Surface result = remeshed_until_sound(surface, remesher, sizes, parameters.gradation, report,
+                                          progress.part(0.0, sound));
+    if (!hold) return result;
+    if (report.crossings_parted > 0) {
+        // Finer edges would cross again.
+        report_deviation(deviations_from(surface, result, progress.silent()), parameters.resolution,
+                         report);
+        return result;
+    }
+    return held(surface, remesher, std::move(result), std::move(sizes), parameters, report,
+                progress.part(sound, 1.0));
 }
 
 /// Radii of the circles of the caps' areas [mm], by patch; 0: it is none.
@@ -366,15 +392,15 @@ std::vector<double> graded_sizes(const Surface& surface, const RemeshParameters&
 Surface graded(const Surface& surface, const RemeshParameters& parameters, Decided& decided,
                const Progress& progress) {
     std::vector<double> sizes = graded_sizes(surface, parameters, decided, progress.part(0.0, 0.2));
-    const Aims aims{parameters.gradation, parameters.hold_resolution ? parameters.resolution : 0.0};
-    return remeshed_until_sound(surface, std::move(sizes), aims, decided.report,
-                                progress.part(0.2, 1.0));
+    const bool hold = parameters.hold_resolution && parameters.resolution > 0.0;
+    return remeshed_by(surface, std::move(sizes), parameters, hold, decided.report,
+                       progress.part(0.2, 1.0));
 }
 
-Surface uniform(const Surface& surface, RemeshReport& report, double gradation,
+Surface uniform(const Surface& surface, const RemeshParameters& parameters, RemeshReport& report,
                 const Progress& progress) {
-    return remeshed_until_sound(surface, std::vector<double>(surface.vertex_count(), report.edge),
-                                {.gradation = gradation}, report, progress);
+    return remeshed_by(surface, std::vector<double>(surface.vertex_count(), report.edge),
+                       parameters, false, report, progress);
 }
 
 /// What is left of a vessel that is as thin as its edges is no vessel.
@@ -405,7 +431,7 @@ Remeshed remesh(const Surface& surface, const RemeshParameters& parameters,
     Decided edges = decided(surface, parameters, lines, progress.part(0.0, 0.1));
     RemeshReport& report = edges.report;
     Surface result = parameters.mode == RemeshMode::Uniform
-                         ? uniform(surface, report, parameters.gradation, progress.part(0.1, 1.0))
+                         ? uniform(surface, parameters, report, progress.part(0.1, 1.0))
                          : graded(surface, parameters, edges, progress.part(0.1, 1.0));
     check_volume(surface, result, report);
     result = with_attributes_of(surface, std::move(result));

@@ -255,6 +255,25 @@ SCENARIO("A print's resolution is held where the wall is finer than its curvatur
     CHECK(none.surface.points() == remesh(ridged).surface.points());
 }
 
+SCENARIO("A wall that crosses itself finer than its edges is not held there", "[meshing][remesh]") {
+    // Across the tube runs a wave whose profile, a prolate trochoid, loops.
+    const Surface folded = mapped(fine_tube(3.0, 8.0, 240), [](const Vec3& p) {
+        constexpr double kLength = 0.8, kAmplitude = 0.2;  // more than length / 2 pi: it loops
+        const double wave = 2.0 * std::numbers::pi * (p.z() - 4.0) / kLength,
+                     amplitude = kAmplitude * std::exp(-std::pow((p.z() - 4.0) / 0.6, 8));
+        const double factor = 1.0 + amplitude * std::cos(wave) / 3.0;
+        return Vec3(factor * p.x(), factor * p.y(), p.z() - amplitude * std::sin(wave));
+    });
+    REQUIRE_FALSE(self_intersections(folded).empty());
+    const Remeshed plain = remesh(folded, {.resolution = 0.1}),
+                   held = remesh(folded, {.resolution = 0.1, .hold_resolution = true});
+    check_sound(plain.surface, true);
+    check_sound(held.surface, true);
+    REQUIRE(held.report.beyond_resolution);
+    CHECK(held.report.beyond_resolution->distance ==
+          Approx(largest_distance(folded, held.surface)).epsilon(0.05));
+}
+
 SCENARIO("Remeshing reports its progress, which never goes back", "[meshing][remesh]") {
     std::vector<double> reports;
     const Progress progress([&](double fraction, auto) { reports.push_back(fraction); }, {});
