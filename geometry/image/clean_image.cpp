@@ -7,6 +7,8 @@
 
 #include "geometry/image/lines.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/robust.h"
+#include "geometry/kernel/statistics.h"
 
 namespace vesselbench {
 
@@ -109,9 +111,7 @@ double edge_contrast(const Image& image) {
                 if (d > 0.0f) differences.push_back(d);
             }
     if (differences.empty()) return 1.0;
-    const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
-    std::nth_element(differences.begin(), middle, differences.end());
-    return 1.4826 * std::sqrt(5.0) * static_cast<double>(*middle);
+    return kNormalScatter * std::sqrt(5.0) * median(std::move(differences));
 }
 
 Image diffuse(const Image& image, const DiffusionParameters& parameters, const Progress& progress) {

@@ -9,6 +9,7 @@
 #include <Eigen/Cholesky>
 
 #include "geometry/kernel/measure.h"
+#include "geometry/kernel/robust.h"
 #include "geometry/kernel/surface_distance.h"
 
 namespace vesselbench {
@@ -64,11 +65,6 @@ FittedTube first_guess(const ContactArm& from, const ContactArm& to) {
         tube.radii.push_back((1.0 - t) * from.radius + t * to.radius);
     }
     return tube;
-}
-
-double biweight(double deviation, double reach) {
-    const double x = deviation / reach;
-    return std::abs(x) < 1.0 ? (1.0 - x * x) * (1.0 - x * x) : 0.0;
 }
 
 double smooth_step(double low, double high, double x) {
@@ -210,7 +206,7 @@ void judge(TwinTubes& twins, const ContactZone& zone, const std::vector<WallPoin
         all += each.area;
         if (std::abs(heights[own]) > kExplained * radius[own]) odd += each.area;
         if (heights[1 - own] > kFree * std::min(radius[0], radius[1]))
-            deviations.push_back(std::abs(heights[own]));
+            deviations.push_back(heights[own]);
     }
     const SurfaceDistance distance(zone.part.surface);
     for (const FittedTube& tube : twins.tubes) {
@@ -219,12 +215,7 @@ void judge(TwinTubes& twins, const ContactZone& zone, const std::vector<WallPoin
         all += whole;
     }
     twins.misfit = odd / all;
-    constexpr double kOfNormal = 1.4826;  // standard deviation over the median deviation
-    if (!deviations.empty()) {
-        const auto middle = deviations.begin() + static_cast<std::ptrdiff_t>(deviations.size() / 2);
-        std::nth_element(deviations.begin(), middle, deviations.end());
-        twins.noise = kOfNormal * *middle;
-    }
+    twins.noise = scatter_of(std::move(deviations));
     twins.overlap = 0.0;
     for (std::size_t i = 0; i < twins.tubes[0].centres.size(); ++i) {
         const double apart = twins.tubes[1].height(twins.tubes[0].centres[i]);

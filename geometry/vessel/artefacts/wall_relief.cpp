@@ -12,7 +12,7 @@
 
 #include "geometry/kernel/disjoint_sets.h"
 #include "geometry/kernel/measure.h"
-#include "geometry/kernel/statistics.h"
+#include "geometry/kernel/robust.h"
 #include "geometry/kernel/wall_edges.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
 #include "geometry/vessel/centerlines/line_radii.h"
@@ -37,8 +37,6 @@ using Terms = Eigen::Matrix<double, kTerms, 1>;
 constexpr std::size_t kFewest = 4 * kTerms;  ///< vertices of a stretch
 constexpr int kSectors = 8;                  ///< each has vertices, or the wall is not all around
 constexpr int kRounds = 5;
-constexpr double kTukey = 4.685;   ///< 95 % efficient with normal errors
-constexpr double kNormal = 1.483;  ///< standard deviation over the median of the absolute values
 constexpr double kFinest = 0.004;  ///< scatter below which no vertex is an outlier [radii]
 
 /// A vertex in the coordinates of a stretch, in radii.
@@ -77,12 +75,10 @@ Fit robust_fit(const std::vector<Polar>& points) {
         }
         fit.shape = normal.selfadjointView<Eigen::Lower>().ldlt().solve(right);
         for (std::size_t i = 0; i < rows.size(); ++i)
-            off[i] = std::abs(points[i].distance - rows[i].dot(fit.shape));
-        fit.scatter = std::max(kNormal * median(off), kFinest);
-        for (std::size_t i = 0; i < rows.size(); ++i) {
-            const double u = off[i] / (kTukey * fit.scatter);
-            weights[i] = u < 1.0 ? (1.0 - u * u) * (1.0 - u * u) : 0.0;
-        }
+            off[i] = points[i].distance - rows[i].dot(fit.shape);
+        fit.scatter = std::max(scatter_of(off), kFinest);
+        for (std::size_t i = 0; i < rows.size(); ++i)
+            weights[i] = biweight(off[i], kTukeyReach * fit.scatter);
     }
     return fit;
 }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "geometry/kernel/robust.h"
 #include "geometry/kernel/statistics.h"
 
 namespace vesselbench {
@@ -16,7 +17,6 @@ constexpr double kWindow = 20.0;     ///< length of vessel that is taken for one
 constexpr double kTaperFrom = 4.0;   ///< a shorter vessel has one radius [diameters]
 constexpr double kMostTaper = 0.05;  ///< of the radius in one diameter [-]
 constexpr double kLeastScatter = 0.02, kMostScatter = 0.06;  ///< [-]; a narrowing is no scatter
-constexpr double kTukey = 4.685;  ///< scatters beyond which a sample has no weight
 constexpr int kRounds = 12;
 constexpr std::size_t kFewest = 6;        ///< samples
 constexpr std::size_t kMostPoints = 120;  ///< for the repeated medians, whose cost is quadratic
@@ -51,17 +51,15 @@ std::vector<double> residuals(const std::vector<Point>& points, const Fit& fit) 
     return left;
 }
 
-double scatter_of(std::vector<double> left) {
-    for (double& r : left) r = std::abs(r);
-    return std::clamp(1.4826 * median(std::move(left)), kLeastScatter, kMostScatter);
+double limited_scatter(std::vector<double> left) {
+    return std::clamp(scatter_of(std::move(left)), kLeastScatter, kMostScatter);
 }
 
 /// One step of reweighted least squares. \param steepest [1/mm], at least 0
 Fit reweighted(const std::vector<Point>& points, const Fit& fit, double steepest) {
     double w = 0.0, wx = 0.0, wy = 0.0, wxx = 0.0, wxy = 0.0;
     for (const Point& p : points) {
-        const double u = (p.y - fit.at(p.x)) / (kTukey * fit.scatter);
-        const double weight = std::abs(u) < 1.0 ? (1.0 - u * u) * (1.0 - u * u) : 0.0;
+        const double weight = biweight(p.y - fit.at(p.x), kTukeyReach * fit.scatter);
         const double x = p.x - fit.x0;
         w += weight;
         wx += weight * x;
@@ -75,7 +73,7 @@ Fit reweighted(const std::vector<Point>& points, const Fit& fit, double steepest
     next.slope = spread > 0.0 ? std::clamp((wxy - wx * wy / w) / spread, -steepest, steepest) : 0.0;
     next.x0 = fit.x0 + wx / w;
     next.y0 = wy / w;
-    next.scatter = scatter_of(residuals(points, next));
+    next.scatter = limited_scatter(residuals(points, next));
     return next;
 }
 
@@ -85,7 +83,7 @@ Fit fitted(const std::vector<Point>& points, double diameter) {
     Fit fit{.x0 = points[points.size() / 2].x};
     fit.slope = std::clamp(repeated_median_slope(points), -steepest, steepest);
     fit.y0 = median(residuals(points, fit));
-    fit.scatter = scatter_of(residuals(points, fit));
+    fit.scatter = limited_scatter(residuals(points, fit));
     for (int round = 0; round < kRounds; ++round) fit = reweighted(points, fit, steepest);
     return fit;
 }
