@@ -31,8 +31,8 @@ from common import DATA, PROGRAM, ROOT, cross, dot, length, row_line, skip, sub,
 # name, input, more arguments of prepare, goals, must succeed.
 CASES = [
     ("bundled aneurysm", "cases/aneurysm", [], ("cfd", "rp"), True),
-    ("v4a aneurysm", "surfaces/v4a_ideal_bifurcation_aneurysm.stl", [], ("cfd", "rp"), True),
-    ("v4a healthy", "surfaces/v4a_ideal_bifurcation_healthy.stl", [], ("cfd", "rp"), True),
+    ("v4a aneurysm", "surfaces/v4a_ideal_bifurcation_aneurysm.stl", ["--units", "mm"], ("cfd", "rp"), True),
+    ("v4a healthy", "surfaces/v4a_ideal_bifurcation_healthy.stl", ["--units", "mm"], ("cfd", "rp"), True),
     ("aneurisk C0015", "surfaces/vampy_aneurisk_C0015_artery.vtp", [], ("cfd", "rp"), True),
     ("artery bifurcation", "surfaces/vampy_artery_bifurcation.stl", ["--units", "mm"], ("cfd", "rp"), True),
     ("vein", "surfaces/vampy_vein.stl", ["--units", "mm", "--vessel", "vein"], ("cfd", "rp"), True),

@@ -25,11 +25,11 @@ TetrahedralizeParameters inside(TetrahedralizeParameters parameters, std::size_t
     const double wanted = *parameters.cells;
     parameters.cells = wanted - static_cast<double>(prisms);
     if (*parameters.cells < kLeastInside * wanted)
-        throw DiagnosedUsage({.code = "layers-exceed-cells",
-                              .figures = {{"wanted", wanted},
-                                          {"layers", static_cast<double>(layers)},
-                                          {"prisms", static_cast<double>(prisms)}},
-                              .remedies = {{.operation = "remesh", .before = true}}});
+        throw DiagnosedFailure({.code = "layers-exceed-cells",
+                                .figures = {{"wanted", wanted},
+                                            {"layers", static_cast<double>(layers)},
+                                            {"prisms", static_cast<double>(prisms)}},
+                                .remedies = {{.operation = "remesh", .before = true}}});
     return parameters;
 }
 
@@ -38,10 +38,10 @@ constexpr double kMostHalf = 0.5;
 
 void require_room(const LayerReport& layers) {
     if (layers.half <= kMostHalf) return;
-    throw DiagnosedUsage({.code = "layers-beyond-lumen",
-                          .place = layers.places.front().place,
-                          .figures = {{"wished", layers.wished}, {"thickness", layers.thickness}},
-                          .remedies = without_layers()});
+    throw DiagnosedFailure({.code = "layers-beyond-lumen",
+                            .place = layers.places.front().place,
+                            .figures = {{"wished", layers.wished}, {"thickness", layers.thickness}},
+                            .remedies = without_layers()});
 }
 
 // The layers' sides lie in an opening's mean plane, from which it may be off a little.

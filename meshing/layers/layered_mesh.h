@@ -16,10 +16,9 @@ struct LayeredMesh {
 /// Fills a closed surface with layers of prisms on its wall and tetrahedra inside. The surface's
 /// triangles on the wall become those of the mesh; openings become a ring of quadrilaterals around
 /// a disc of as many triangles as before. Prisms count as cells.
-/// \throw InvalidInput as `tetrahedralized`; UsageError if the prisms alone exceed `cells`,
-/// or the layers have no room in the lumen;
-/// AlgorithmFailure if no valid layers are found, with the place, or the lumen inside cannot be
-/// filled with its boundary kept
+/// \throw InvalidInput as `tetrahedralized`; AlgorithmFailure if the prisms alone exceed `cells`,
+/// the layers have no room in the lumen, no valid ones are found, with the place, or the lumen
+/// inside cannot be filled with its boundary kept
 [[nodiscard]] LayeredMesh layered_mesh(const Surface& surface,
                                        const TetrahedralizeParameters& parameters,
                                        const LayerParameters& layers,

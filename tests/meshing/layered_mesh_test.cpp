@@ -84,14 +84,14 @@ SCENARIO("prisms count as cells", "[meshing][layers]") {
     }
     GIVEN("fewer cells than the prisms are") {
         THEN("that is refused") {
-            CHECK_THROWS_AS(layered_mesh(tube, {.cells = 4000.0}, {.layers = 4}), DiagnosedUsage);
+            CHECK_THROWS_AS(layered_mesh(tube, {.cells = 4000.0}, {.layers = 4}), DiagnosedFailure);
         }
     }
 }
 
 SCENARIO("layers that the lumen has no room for are refused", "[meshing][layers]") {
     const Surface tube = test::fine_tube(2.0, 6.0, 18);
-    CHECK_THROWS_AS(layered_mesh(tube, {}, {.layers = 4, .thickness_mm = 3.0}), DiagnosedUsage);
+    CHECK_THROWS_AS(layered_mesh(tube, {}, {.layers = 4, .thickness_mm = 3.0}), DiagnosedFailure);
     CHECK_NOTHROW(layered_mesh(tube, {}, {.layers = 4, .thickness_mm = 0.8}));
 }
 

@@ -268,7 +268,7 @@ std::vector<Parameter> edge_parameters() {
         {.name = "cells",
          .unit = "-",
          .help = "unless edge is given: so many tetrahedra may fill the lumen; edges become longer "
-                 "for it, down to 12 around the typical vessel; models for flow use 1500000",
+                 "for it, down to 12 around the typical vessel; models for flow use 1000000",
          .minimum = 1000.0,
          .maximum = 1e8,
          .only_with = when_graded()},

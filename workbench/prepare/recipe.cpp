@@ -46,6 +46,13 @@ void refuse_input_file(const Operation& operation, const std::string& parameter)
                          ": the input itself is given, not set");
 }
 
+/// True if one of the arguments is among those that the entry would replace.
+bool replaces(const RecipeEntry& entry, const GivenArguments& given) {
+    return entry.otherwise && std::ranges::any_of(given->values(), [&](const auto& argument) {
+               return (*entry.otherwise)->has(argument.first);
+           });
+}
+
 }  // namespace
 
 Recipe recipe_from_json(const Json& list, const RecipeUse& use) {
@@ -96,6 +103,8 @@ void set_arguments(Recipe& recipe, std::span<const std::string> texts) {
             if (&entry.given.operation() != &operation) continue;
             found = true;
             entry.given.set(given);
+            // What is asked for by name is made, or refused.
+            if (replaces(entry, given)) entry.otherwise.reset();
         }
         if (!found) throw UsageError("--set '" + text + "': the recipe has no " + operation.name);
     }

@@ -40,8 +40,8 @@ namespace vesselbench {
 [[nodiscard]] Recipe default_recipe(const RecipeUse& use);
 
 /// Replaces arguments by those of "operation.parameter=value" texts, in every entry of that
-/// operation.
-/// \throw UsageError if a text is not of that form, or the recipe has no such operation
+/// operation. An entry does not replace them otherwise: what is asked for by name is made, or
+/// refused. \throw UsageError if a text is not of that form, or the recipe has no such operation
 void set_arguments(Recipe& recipe, std::span<const std::string> texts);
 
 }  // namespace vesselbench
