@@ -44,6 +44,13 @@ SCENARIO("bash completes what the tables hold", "[workbench][shell]") {
     CHECK(offered("prepare in.stl --for ''") == "cfd rp planning simulation\n");
     CHECK(offered("prepare in.stl --re") == "--recipe --refine --resume\n");
     CHECK(offered("batch cases.csv --engine ''") == "local slurm\n");
+    CHECK(offered("prepare in.stl --recipe fine") == "fine-print\n");
+    CHECK(offered("suggest in.stl --filter lap") == "laplace laplace-hc\n");
+    CHECK(offered("prepare in.stl --set remesh.print") == "remesh.print_resolution=\n");
+    CHECK(offered("prepare in.stl --set smooth.filter = la") == "laplace laplace-hc\n");
+    CHECK(offered("export p.vbench case --set openfoam.prof") == "openfoam.profile=\n");
+    CHECK(offered("export p.vbench case --set openfoam.profile = p") == "parabolic plug\n");
+    CHECK(offered("export p.vbench case --set remesh") == "\n");
     CHECK_THAT(offered("apply p.vbench re"), Contains("remesh") && Contains("repair"));
     CHECK(offered("apply p.vbench smooth it") == "iterations=\n");
     CHECK(offered("apply p.vbench smooth filter = la") == "laplace laplace-hc\n");
@@ -66,13 +73,26 @@ SCENARIO("Other shells read their completions", "[workbench][shell]") {
         INFO(read.err);
         CHECK(read.exit_code == 0);
     }
+    if (has_program("fish")) {
+        const auto fish = [&](const std::string& typed) {
+            const std::string file = printed({"completion", "fish"});
+            return run_program("fish", {"--no-config", "-c",
+                                        "source " + file + "; complete -C '" + typed + "'"})
+                .out;
+        };
+        CHECK_THAT(fish("vesselbench apply p.vbench smooth filter=la"),
+                   Contains("filter=laplace-hc"));
+        CHECK_THAT(fish("vesselbench prepare in.stl --recipe fine"), Contains("fine-print"));
+        CHECK_THAT(fish("vesselbench prepare in.stl --set smooth.fil"), Contains("smooth.filter="));
+    }
     CHECK(run_program(test::program_path(), {"completion", "tcsh"}).exit_code == 2);
 }
 
 SCENARIO("The manual page explains every command and lists every operation", "[workbench][shell]") {
     const ProgramRun manual = run_program(test::program_path(), {"manual"});
     CHECK_THAT(manual.out, Contains(".SS \"prepare INPUT\"") && Contains("clip\\-opening") &&
-                               Contains(".SH EXIT STATUS"));
+                               Contains(".SH EXIT STATUS") && Contains(".SH FILES") &&
+                               Contains(".SH SEE ALSO"));
     if (!has_program("groff")) return skip("no groff");
     const ProgramRun read =
         run_program("groff", {"-man", "-ww", "-z", "-Tutf8", printed({"manual"})});
