@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "geometry/kernel/catalogue.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/surface_distance.h"
@@ -255,7 +256,8 @@ PreparedReport prepare_report(Session& session, const PreparedCase& prepared,
                {{"name", prepared.input.name},
                 {"kind", prepared.input.is_image ? "image" : "surface"},
                 {"mask", shown_file(prepared.input, prepared.input.mask.filename().string())}}},
-              {"warnings", Json::array()}};
+              {"warnings", Json::array()},
+              {"notes", Json::array()}};
     add_steps(made, edits, prepared.input);
     add_review(report, review_of(session, prepared.purpose));
     const auto source_edit = last_edit(edits, &RecipePart::makes_source);
@@ -286,8 +288,8 @@ PreparedReport prepare_report(Session& session, const PreparedCase& prepared,
             PictureSource{*source.surface, comparable, closed_ends(made.document)});
     add_pictures(made, surface, compared_with);
     for (const Diagnostic& warning : made.warnings)
-        report["warnings"].push_back(worded_with_operation(warning));
-    report["diagnostics"] = diagnostics_json(made.warnings);
+        report[is_note(warning) ? "notes" : "warnings"].push_back(worded_with_operation(warning));
+    report["diagnostics"] = reported_json(made.warnings);
     report["products"] = prepared.products;
     report["earlier_results"] = prepared.earlier_results;
     report = printable_json(std::move(report));
