@@ -1,6 +1,10 @@
-# Writes the notices of what the program contains of other works, as their packages state them:
-#   cmake -DOUT=FILE -DTHREE=LICENSE_OF_THREE_JS -P Notices.cmake
+# Writes the notices of what the program, and the handbook if it was made, contain of other works, as their packages state them:
+#   cmake -DOUT=FILE -DTHREE=LICENSE_OF_THREE_JS -DHANDBOOK=FOLDER -P Notices.cmake
 file(STRINGS ${CMAKE_CURRENT_LIST_DIR}/../packaging/compiled_in.txt packages)
+if(EXISTS ${HANDBOOK}/index.html)
+  file(STRINGS ${CMAKE_CURRENT_LIST_DIR}/../packaging/in_handbook.txt pages)
+  list(APPEND packages ${pages})
+endif()
 set(text "Notices of the works of which vesselbench contains parts\n")
 foreach(package ${packages})
   file(READ /usr/share/doc/${package}/copyright notice)

@@ -4,16 +4,21 @@ set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME program)
 set(made ${CMAKE_BINARY_DIR}/packaging)
 set(docs ${CMAKE_INSTALL_DATADIR}/doc/vesselbench)
 
-# The texts that follow from the program's tables are printed by the program.
+# The handbook, if mkdocs is there, and the texts that follow from the program's tables, which the program prints.
+find_program(MKDOCS mkdocs)
 install(CODE "
-  file(MAKE_DIRECTORY \"${made}\")
+  file(MAKE_DIRECTORY \"${made}/html\")
+  if(NOT \"${MKDOCS}\" MATCHES NOTFOUND)
+    execute_process(COMMAND \"${MKDOCS}\" build --quiet --strict --clean --site-dir \"${made}/html\"
+      WORKING_DIRECTORY \"${CMAKE_SOURCE_DIR}\" COMMAND_ERROR_IS_FATAL ANY)
+  endif()
   foreach(text IN ITEMS \"completion bash\" \"completion zsh\" \"completion fish\" \"recipe schema\" manual)
     string(REPLACE \" \" \"-\" file \"\${text}\")
     separate_arguments(words UNIX_COMMAND \"\${text}\")
     execute_process(COMMAND \"${CMAKE_BINARY_DIR}/vesselbench\" \${words} OUTPUT_FILE \"${made}/\${file}\" COMMAND_ERROR_IS_FATAL ANY)
   endforeach()
   execute_process(COMMAND \"${CMAKE_COMMAND}\" -DOUT=${made}/NOTICES
-    -DTHREE=${CMAKE_SOURCE_DIR}/workbench/review/page/node_modules/three/LICENSE
+    -DTHREE=${CMAKE_SOURCE_DIR}/workbench/review/page/node_modules/three/LICENSE -DHANDBOOK=${made}/html
     -P \"${CMAKE_SOURCE_DIR}/cmake/Notices.cmake\" COMMAND_ERROR_IS_FATAL ANY)
   execute_process(COMMAND \"${CMAKE_SOURCE_DIR}/scripts/sbom\" \"${CMAKE_BINARY_DIR}/vesselbench\"
     OUTPUT_FILE \"${made}/vesselbench.spdx.json\" COMMAND_ERROR_IS_FATAL ANY)
@@ -45,7 +50,7 @@ install(FILES packaging/vesselbench.metainfo.xml DESTINATION ${CMAKE_INSTALL_DAT
 install(FILES packaging/copyright README.md CONTRIBUTING.md SECURITY.md ${made}/changelog.gz ${made}/CHANGELOG.md.gz ${made}/NOTICES.gz ${made}/LICENSE.gz
   ${made}/vesselbench.spdx.json.gz
   DESTINATION ${docs})
-install(DIRECTORY docs DESTINATION ${docs})
+install(DIRECTORY docs ${made}/html DESTINATION ${docs})
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_DEB_COMPONENT_INSTALL ON)

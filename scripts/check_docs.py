@@ -21,6 +21,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import urllib.parse
 
 import common
 
@@ -328,6 +329,21 @@ def asset_faults(site):
                             yield f"{os.path.relpath(os.path.join(folder, name), site)}: there is no {asset}"
 
 
+def disk_search_faults(site):
+    """A page from the disk has the search, too, in a browser."""
+    browser = os.environ.get("CHROMIUM") or shutil.which("chromium")
+    if not browser:
+        common.skip("no chromium")
+        return
+    for question, answer in list(QUESTIONS.items())[:2]:
+        page = f"file://{site}/index.html?q={urllib.parse.quote(question)}"
+        command = [browser, "--headless", "--no-sandbox", "--disable-gpu", "--virtual-time-budget=20000", "--dump-dom", page]
+        shown = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True, timeout=120).stdout
+        found = shown.partition('id="mkdocs-search-results"')[2].partition("</article></div>")[0]
+        if f"/{answer}" not in found:
+            yield f"search from the disk: '{question}' does not lead to {answer}"
+
+
 def search_faults(site):
     """Every question's page has to be among the first three pages found."""
     done = subprocess.run(["node", "-e", SEARCH, site, json.dumps(list(QUESTIONS))], capture_output=True, text=True, check=True)
@@ -347,7 +363,7 @@ def site_build_faults():
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         if done.returncode != 0:
             return [done.stdout.strip()]
-        return [*network_faults(site), *asset_faults(site), *search_faults(site)]
+        return [*network_faults(site), *asset_faults(site), *search_faults(site), *disk_search_faults(site)]
 
 
 def literals(folder):

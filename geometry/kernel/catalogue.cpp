@@ -1,10 +1,13 @@
 #include "geometry/kernel/catalogue.h"
 
-#include "geometry/kernel/diagnostic.h"
+#include <algorithm>
 
 namespace vesselbench {
 
 namespace {
+
+/// Of a text: CatalogueText::note.
+constexpr bool kNote = true;
 
 constexpr CatalogueText kTexts[] = {
     {kPlainText, "{text}"},
@@ -75,7 +78,8 @@ constexpr CatalogueText kTexts[] = {
     {"cleaning-changed-topology", "cleaning changed the topology: {before} became {after}"},
     {"vessel-leaves-image",
      "the vessel leaves the image at {places#place}; it is closed by flat caps there (patches "
-     "cut_1 ...)"},
+     "cut_1 ...)",
+     kNote},
     {"not-a-label-map",
      "the image contains {value} and is not a label map: for intensities, use {fix}"},
     {"threshold-changes-volume",
@@ -141,7 +145,7 @@ constexpr CatalogueText kTexts[] = {
     {"more-holes-closed",
      "{holes#smaller hole was|smaller holes were} closed that may be ends of vessels: see the "
      "report"},
-    {"orientation-reversed", "the surface was inside out; its orientation was reversed"},
+    {"orientation-reversed", "the surface was inside out; its orientation was reversed", kNote},
     {"width-unknown", "the surface's image is unknown, and so is what is too narrow: give {fix}"},
     {"lumen-widened",
      "the lumen was narrower than {limit_mm} mm at {places#place} and was widened, at {place} from "
@@ -289,7 +293,8 @@ constexpr CatalogueText kTexts[] = {
     {"filter-crosses-walls",
      "{vertices#vertex|vertices} moved less than the filter would have moved them, first near "
      "{place}: walls would have passed through each other[; {crossings#pair of triangles still "
-     "does|pairs of triangles still do}: use fewer {fix}, or {fix2}]"},
+     "does|pairs of triangles still do}: use fewer {fix}, or {fix2}]",
+     kNote},
     {"filter-roughens",
      "Laplace+HC with these values roughens the surface instead of smoothing it: keep (1 - beta) * "
      "lambda at or below 0.5"},
@@ -326,7 +331,8 @@ constexpr CatalogueText kTexts[] = {
      "follows the centerline's direction"},
     {"opening-direction-uncertain",
      "the direction of the opening at {place} is only known to within {deviation_deg:%.0f} degrees "
-     "(one standard deviation): its vessel is short, uneven or few voxels wide"},
+     "(one standard deviation): its vessel is short, uneven or few voxels wide",
+     kNote},
     {"opening-tilted",
      "the opening at {place} is tilted by {tilt_deg:%.0f} degrees against the vessel's axis"},
     {"too-few-openings",
@@ -882,6 +888,10 @@ constexpr CatalogueText kTexts[] = {
      "the model has lost vessels:{vessels}[\nlost by edit {by}:\n{fix}, then --resume]"},
     {"step-skipped", "the step was skipped: {why}"},
     {"made-otherwise", "it was made with {arguments} instead: {why}"},
+    {"made-without-stack",
+     "it was made with {arguments}: the surface has no image, and too few staircases to find the "
+     "direction of its slices by",
+     kNote},
     {"thin-vessels-missing",
      "the model misses {vessels#thin vessel} of at most {diameter_mm} mm, the widest at {place}, "
      "with {flow_percent:%.3g} % of the flow"},
@@ -931,6 +941,13 @@ constexpr CatalogueText kTexts[] = {
 
 std::span<const CatalogueText> catalogue() {
     return kTexts;
+}
+
+bool is_note(const Diagnostic& diagnostic) {
+    const auto entry = std::ranges::find_if(
+        kTexts, [&](const CatalogueText& known) { return diagnostic.code == known.code; });
+    return entry != std::end(kTexts) && entry->note && diagnostic.remedies.empty() &&
+           diagnostic.severity == Severity::Warning;
 }
 
 }  // namespace vesselbench

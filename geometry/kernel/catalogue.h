@@ -2,6 +2,8 @@
 
 #include <span>
 
+#include "geometry/kernel/diagnostic.h"
+
 namespace vesselbench {
 
 /// The text of a code, without an operation's or an argument's name: those are in the remedies.
@@ -12,9 +14,14 @@ namespace vesselbench {
 struct CatalogueText {
     const char* code;
     const char* text;
+    bool note = false;  ///< what was done as it should be, so that it is no warning
 };
 
 /// All texts of errors and warnings that have a code; each code once.
 [[nodiscard]] std::span<const CatalogueText> catalogue();
+
+/// True for what readers may know, but need not look at: a note of the catalogue that leaves
+/// nothing to do. Projects store it as a warning.
+[[nodiscard]] bool is_note(const Diagnostic& diagnostic);
 
 }  // namespace vesselbench

@@ -17,10 +17,15 @@ FacingPlaces places_of(const Surface& surface, const FacingWall& facing) {
     return {facing.distance, surface.points()[facing.from], facing.to};
 }
 
+/// Several closed bodies are printed beside each other, each of them watertight.
+bool is_leak(const SurfaceProblem& problem) {
+    return is_obstacle(problem) && problem.kind != SurfaceProblem::Kind::SeveralParts;
+}
+
 }  // namespace
 
 bool PrintCheck::is_watertight() const {
-    return std::none_of(problems.begin(), problems.end(), is_obstacle);
+    return std::ranges::none_of(problems, is_leak);
 }
 
 bool PrintCheck::is_printable(double thinnest, double closest) const {

@@ -30,12 +30,14 @@
 #include "meshing/layers/layered_mesh.h"
 #include "meshing/products/glb.h"
 #include "meshing/products/gmsh.h"
+#include "meshing/products/print_check.h"
 #include "meshing/products/threemf.h"
 #include "meshing/products/vtu.h"
 #include "meshing/products/zip.h"
 #include "meshing/tetrahedra/tetrahedralize.h"
 #include "tests/support/commands.h"
 #include "tests/support/shapes.h"
+#include "tests/support/surface_facts.h"
 
 using namespace vesselbench;
 
@@ -263,6 +265,33 @@ SCENARIO("A 3MF file holds the surface's points and triangles exactly", "[meshin
                              static_cast<VertexId>(std::stoul(values.at(1))),
                              static_cast<VertexId>(std::stoul(values.at(2)))});
     CHECK(std::ranges::equal(triangles, tube.triangles()));
+}
+
+SCENARIO("Several closed bodies are named parts of one 3MF object", "[meshing][products]") {
+    const Surface two =
+        test::merged(test::icosphere(2.0, 2), test::icosphere(2.0, 2, Vec3(0, 0, 10)));
+    const std::string path = test::temporary_folder() + "/print.3mf";
+    write_3mf(two, path);
+    const std::string model = parts_of(bytes_of(path)).at("3D/3dmodel.model");
+    for (const char* part : {"name=\"part 1\"", "name=\"part 2\"", "<component objectid=\"1\"/>",
+                             "<component objectid=\"2\"/>", "<item objectid=\"3\"/>"})
+        CHECK(model.find(part) != std::string::npos);
+    CHECK(quoted_values(model, "<vertex ").size() == two.vertex_count());
+    THEN("they are watertight") {
+        CHECK(print_check(two).is_watertight());
+    }
+    THEN("a cavity is no part of its own") {
+        write_3mf(test::sphere_shell(10.0, 2.0, 2), path);
+        CHECK(parts_of(bytes_of(path)).at("3D/3dmodel.model").find("name=\"part") ==
+              std::string::npos);
+    }
+    THEN("a slicer reads both where they are") {
+        const auto run = test::run_command("prusa-slicer", {"--info", path});
+        if (!run) return;
+        CAPTURE(run->output);
+        for (const char* part : {"manifold = yes", "max_z = 2.0", "max_z = 12.0"})
+            CHECK(run->output.find(part) != std::string::npos);
+    }
 }
 
 SCENARIO("print files are manifold and in millimetres for other programs", "[meshing][products]") {

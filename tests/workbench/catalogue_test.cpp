@@ -190,3 +190,25 @@ SCENARIO("A diagnosed error keeps its class and says its first diagnostic",
     CHECK(diagnostics_of(failure).at(0).severity == Severity::Error);
     CHECK(diagnostics_of(IoError("no such file")).at(0).code == kPlainText);
 }
+
+SCENARIO("A note needs nobody to look at it", "[workbench][catalogue]") {
+    Diagnostic kept_apart{
+        .code = "filter-crosses-walls", .place = Vec3(1, 2, 3), .figures = {{"vertices", 95.0}}};
+    CHECK(is_note(kept_apart));
+    CHECK(reported_json({kept_apart})[0]["severity"] == "note");
+    THEN("what leaves something to do is a warning") {
+        kept_apart.figures["crossings"] = 2.0;
+        kept_apart.remedies = {{.arguments = {{"iterations", ""}}}};
+        CHECK_FALSE(is_note(kept_apart));
+        CHECK(reported_json({kept_apart})[0]["severity"] == "warning");
+    }
+    THEN("errors and warnings of the catalogue, and codes that it does not know, are none") {
+        kept_apart.severity = Severity::Error;
+        CHECK_FALSE(is_note(kept_apart));
+        CHECK_FALSE(is_note({.code = "end-decided"}));
+        CHECK_FALSE(is_note({.code = "of another version"}));
+    }
+    THEN("projects store it as a warning, as versions before read it") {
+        CHECK(diagnostic_json(kept_apart)["severity"] == "warning");
+    }
+}

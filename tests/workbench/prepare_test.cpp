@@ -376,6 +376,7 @@ SCENARIO("A phantom becomes a CFD case", "[workbench][prepare]") {
     const Json summary = Json::parse(result.out);
     CHECK(summary["products"] == report["products"]);
     CHECK(summary["warnings"] == report["warnings"]);
+    CHECK(summary["notes"] == report["notes"]);
     CHECK(report["quality"]["after"]["closed"] == true);
     CHECK(report["quality"]["after"]["self_intersections"] == 0);
     CHECK(report["openings"].size() == 2);

@@ -31,6 +31,10 @@ SCENARIO("The report's page matches its document", "[workbench][report]") {
         "program_version": "1.2.3", "purpose": "cfd", "units": "mm",
         "input": {"name": "<vessel> & co"},
         "warnings": ["the inlet sits in a bend"],
+        "notes": ["made without staircases"],
+        "requirements": [
+            {"requirement": "smoothness", "limit": "at most 1 % of edges", "judgement": "not met"},
+            {"requirement": "spatial relations", "judgement": "not judged: of low relevance"}],
         "steps": [{"step": "smoothing", "operation": "smooth", "resolved": {"lambda": 0.5,
                    "planes": [{"tip": [1, 2, 3]}, {"tip": [4, 5, 6]}]},
                    "duration_s": 0.25, "change": {"volume_before_mm3": 200.0,
@@ -38,11 +42,12 @@ SCENARIO("The report's page matches its document", "[workbench][report]") {
                   {"step": "source", "operation": "repair", "resolved": {},
                    "change": {"volume_before_mm3": null, "volume_after_mm3": 200.0,
                    "no_volume_change": "the triangles before were not oriented alike"}}],
-        "quality": {"before": {"closed": false}, "after": {"closed": true, "triangles": 1234}},
+        "quality": {"before": {"closed": false},
+                    "after": {"closed": true, "triangles": 1234, "volume": 1536.7}},
         "openings": [{"name": "inlet", "kind": "inlet", "diameter": 4.25}],
-        "ends": [{"place_mm": [1, 2, 31.5], "diameter_mm": 3.75, "fate": "closed",
+        "ends": [{"number": 2, "place_mm": [1, 2, 31.5], "diameter_mm": 3.75, "fate": "closed",
                   "opening": null, "why": "it looks like an <aneurysm>"},
-                 {"place_mm": [4, 5, 6], "diameter_mm": 4.5, "fate": "opened",
+                 {"number": 1, "place_mm": [4, 5, 6], "diameter_mm": 4.5, "fate": "opened",
                   "opening": "inlet", "why": ""}],
         "findings": [{"id": "bump@1,2,3", "title": "Bump", "certainty": 0.87,
                       "text": "the wall rises <here>",
@@ -66,44 +71,69 @@ SCENARIO("The report's page matches its document", "[workbench][report]") {
         report, pictures,
         std::vector<ReportSection>{{.key = "casting", .title = "Mould", .about = "To be cast."},
                                    {.key = "absent", .title = "Absent", .about = ""}});
-    for (const char* part : {"&lt;vessel&gt; &amp; co",
-                             "the inlet sits in a bend",
-                             "What looks wrong",
-                             "the wall rises &lt;here&gt;",
-                             "87 %",
-                             "brush-smooth at=1,2,3",
-                             "96 % that a branch ends blind",
-                             "sac (aneurysm?) 88 %: its &lt;neck&gt;",
-                             "<details><summary>1 more below 50 %</summary>",
-                             "lambda=0.5",
-                             "-5 %",
-                             "98765",
-                             "4.25",
-                             "89.8",
-                             "<h2>Mould</h2>",
-                             "To be cast.",
-                             "wax grams",
-                             "12.5",
-                             "flow [cm\u00B3/s]",
-                             "least [mm] 0.5, noise 0<",
-                             "10 numbers",
-                             "planes=2 records",
-                             "<h2>Vessel ends</h2>",
-                             "<td>1,2,31.5</td><td class=n>3.75</td><td class=n>closed</td>",
-                             "<td>4,5,6</td><td class=n>4.5</td><td class=n>opened</td>"
-                             "<td class=n>inlet, 4.25 mm</td>",
-                             "inlet=, open= and closed=",
-                             "it looks like an &lt;aneurysm&gt;",
-                             "Distance from the source",
-                             "27.5",
-                             "- (the triangles before were not oriented alike)",
-                             "data:image/png;base64,iVBORw==",
-                             "surface.vtp"})
+    for (const char* part :
+         {"&lt;vessel&gt; &amp; co",
+          "the inlet sits in a bend",
+          "What looks wrong",
+          "the wall rises &lt;here&gt;",
+          "87 %",
+          "brush-smooth at=1,2,3",
+          "96 % that a branch ends blind",
+          "sac (aneurysm?) 88 %: its &lt;neck&gt;",
+          "<details><summary>1 more below 50 %</summary>",
+          "lambda=0.5",
+          "-5 %",
+          "98765",
+          "4.25",
+          "89.8",
+          "<h2>Mould</h2>",
+          "To be cast.",
+          "wax grams",
+          "12.5",
+          "flow [cm\u00B3/s]",
+          "least [mm] 0.5, noise 0<",
+          "10 numbers",
+          "planes=2 records",
+          "<h2>Vessel ends</h2>",
+          "<td class=n>2</td><td>1,2,31.5</td><td class=n>3.75</td><td class=n>closed</td>",
+          "<td class=n>1</td><td>4,5,6</td><td class=n>4.5</td><td class=n>opened</td>"
+          "<td class=n>inlet, 4.25 mm</td>",
+          "inlet=, open= and closed=",
+          "it looks like an &lt;aneurysm&gt;",
+          "Distance from the source",
+          "27.5",
+          "- (the triangles before were not oriented alike)",
+          "data:image/png;base64,iVBORw==",
+          "surface.vtp"})
         CHECK_THAT(page, Contains(part));
-    THEN("what is unlikely is folded, and what may be anatomy is not offered for removal") {
-        CHECK(page.find("a ring") < page.find("<details>"));
-        CHECK(page.find("a hollow") > page.find("<details>"));
+    THEN("findings are folded, and what may be anatomy is not offered for removal") {
+        const std::size_t likely = page.find("<details><summary>What looks wrong: 3 findings"),
+                          unlikely = page.find("<details><summary>1 more below 50 %");
+        REQUIRE(likely != std::string::npos);
+        CHECK(page.find("87 %") > likely);
+        CHECK(page.find("87 %") < unlikely);
+        CHECK(page.find("a hollow") > unlikely);
         CHECK(page.find("remove-branch") == std::string::npos);
+    }
+    THEN("notes are folded, and no warnings") {
+        CHECK(page.find("made without staircases") > page.find("<summary>Notes"));
+    }
+    THEN(
+        "the first screen has the picture, verdicts, openings with their ends' numbers, and what "
+        "to look at") {
+        const std::string first = page.substr(0, page.find("<h2 id=look>"));
+        for (const char* part :
+             {"from the front",
+              "<p class=\"verdict bad\">Not met: smoothness, at most 1 % of edges",
+              "<td>spatial relations</td><td class=\"\">not judged</td>",
+              "<td class=n>1</td><td>inlet</td><td class=n>4.25</td>", "the inlet sits in a bend",
+              "<b>Bump</b> the wall rises &lt;here&gt;", "not reviewed",
+              "<td>Name</td><td>Role</td><td>Date</td>"})
+            CHECK_THAT(first, Contains(part));
+        CHECK_THAT(first, !Contains("a hollow") && !Contains("made without staircases"));
+    }
+    THEN("numbers have three digits, and no exponent where they are large") {
+        CHECK_THAT(page, Contains(">1540<"));
     }
     CHECK(page.find("src=\"http") == std::string::npos);
     CHECK(page.find("<vessel>") == std::string::npos);
@@ -135,4 +165,35 @@ SCENARIO("Where there is no change of the volume, the reason is given", "[workbe
     const LogEntry entry{.edit = {}, .result = result};
     CHECK(log_json(entry)["change"]["no_volume_change"] ==
           "the triangles before were not oriented alike");
+}
+
+SCENARIO("The first screen of a report is as short as a screen", "[workbench][report]") {
+    Json report = Json::parse(R"({"program_version": "1", "purpose": "rp", "input": {"name": "a"},
+        "requirements": [{"requirement": "smoothness", "judgement": "met"}],
+        "casting": {"headline": "not printable, a gap"}})");
+    const std::vector<ReportSection> sections = {{.key = "casting", .title = "Cast", .about = ""}};
+    const auto first = [&] {
+        const std::string page = report_html(report, {}, sections);
+        return page.substr(0, page.find("class=sign"));
+    };
+    THEN("it says what is met, what a check found, and that there is nothing else") {
+        CHECK_THAT(first(), Contains("Meets the one requirement judged for this purpose") &&
+                                Contains("verdict bad\">Cast: not printable, a gap") &&
+                                Contains("The model is closed") &&
+                                Contains("Nothing: there is no"));
+    }
+    WHEN("there are many openings, warnings and findings") {
+        for (int i = 0; i < 20; ++i) {
+            const std::string name = "item " + std::to_string(i) + ".";
+            report["openings"].push_back({{"name", "outlet of " + name}});
+            report["warnings"].push_back("warning of " + name);
+            report["findings"].push_back({{"title", "finding of " + name}});
+        }
+        const std::string text = first();
+        CHECK_THAT(text, Contains("outlet of item 5.") && Contains("14 more</a>"));
+        CHECK_THAT(text, Contains("warning of item 2.") && Contains("finding of item 2.") &&
+                             Contains("34 more</a>"));
+        for (const char* part : {"outlet of item 6.", "warning of item 3.", "finding of item 3."})
+            CHECK_THAT(text, !Contains(part));
+    }
 }

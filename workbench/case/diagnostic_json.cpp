@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "geometry/kernel/catalogue.h"
 #include "workbench/case/diagnostic_words.h"
 #include "workbench/case/json_fields.h"
 #include "workbench/case/point_json.h"
@@ -96,6 +97,13 @@ Json diagnostic_json(const Diagnostic& diagnostic) {
 Json diagnostics_json(const std::vector<Diagnostic>& diagnostics) {
     Json list = Json::array();
     for (const Diagnostic& diagnostic : diagnostics) list.push_back(diagnostic_json(diagnostic));
+    return list;
+}
+
+Json reported_json(const std::vector<Diagnostic>& diagnostics) {
+    Json list = diagnostics_json(diagnostics);
+    for (std::size_t i = 0; i < diagnostics.size(); ++i)
+        if (is_note(diagnostics[i])) list[i]["severity"] = "note";
     return list;
 }
 

@@ -16,6 +16,9 @@ namespace vesselbench {
 
 [[nodiscard]] nlohmann::ordered_json diagnostics_json(const std::vector<Diagnostic>& diagnostics);
 
+/// The same for reports, with the severity "note" where projects store a warning that is_note().
+[[nodiscard]] nlohmann::ordered_json reported_json(const std::vector<Diagnostic>& diagnostics);
+
 /// What diagnostic_json() made, or a text alone, as old projects have it.
 /// \param place in the JSON document, for errors
 /// \throw InvalidInput if it is neither

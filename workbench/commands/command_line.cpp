@@ -78,6 +78,15 @@ void add_doctor(CommandLine& line) {
     add_json(command, *json);
 }
 
+void add_docs(CommandLine& line) {
+    const auto options = std::make_shared<DocsOptions>();
+    CLI::App& command =
+        add_command(line, "docs", "Show the handbook in the browser, or what it says about words",
+                    [options] { return show_docs(*options), 0; });
+    command.add_option("WORDS", options->words, "To search for")->type_name("");
+    add_json(command, options->json);
+}
+
 void add_window(CommandLine& line) {
     CLI::App& command =
         add_command(line, "open", "Open a project, a surface, an image or a case in the window",
@@ -113,6 +122,7 @@ void set_up(CommandLine& line) {
     add_operations(line);
     add_phantom(line);
     add_doctor(line);
+    add_docs(line);
     add_shell_commands(line);
 }
 

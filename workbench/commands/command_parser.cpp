@@ -38,10 +38,9 @@ void add_project(CLI::App& command, std::string& project) {
     command.add_option("PROJECT", project, "Project file (.vbench)")->required()->type_name("");
 }
 
-void add_settings(CLI::App& command, std::vector<std::string>& settings, const char* help) {
-    command.add_option("--set", settings, help)
-        ->allow_extra_args(false)
-        ->type_name("OPERATION.PARAMETER=VALUE");
+void add_settings(CLI::App& command, std::vector<std::string>& settings, const char* help,
+                  const char* value) {
+    command.add_option("--set", settings, help)->allow_extra_args(false)->type_name(value);
 }
 
 void add_variant(CLI::App& command, std::string& variant, const std::string& help) {

@@ -13,6 +13,12 @@
 
 namespace vesselbench {
 
+/// Values of options whose words shells complete (shell/command_rows.h).
+inline constexpr const char* kRecipeValue = "FILE|RECIPE";
+inline constexpr const char* kFilterValue = "FILTER";
+inline constexpr const char* kSettingValue = "OPERATION.PARAMETER=VALUE";
+inline constexpr const char* kFlowSettingValue = "openfoam.PARAMETER=VALUE";
+
 /// The parser, and the command it found.
 struct CommandLine {
     explicit CommandLine(std::stop_token on);
@@ -33,9 +39,10 @@ CLI::App& add_command(CommandLine& line, const std::string& name, const std::str
 /// Adds the argument PROJECT.
 void add_project(CLI::App& command, std::string& project);
 
-/// Adds the option --set OPERATION.PARAMETER=VALUE, which may be repeated.
+/// Adds the option --set, which may be repeated. \param value kSettingValue or kFlowSettingValue
 void add_settings(CLI::App& command, std::vector<std::string>& settings,
-                  const char* help = "operation.parameter=value: change an argument of the recipe");
+                  const char* help = "operation.parameter=value: change an argument of the recipe",
+                  const char* value = kSettingValue);
 
 /// Adds the option --variant. \param help what is done with it; its default follows
 void add_variant(CLI::App& command, std::string& variant, const std::string& help);

@@ -339,6 +339,15 @@ struct WindowOptions {
     std::string theme = "dark";
 };
 
+struct DocsOptions {
+    std::vector<std::string> words;  ///< searched for; empty: the start page
+    bool json = false;
+};
+
+/// Shows the handbook in the browser, or what a search in it finds, and prints the address.
+/// \throw AlgorithmFailure if it is not there
+void show_docs(const DocsOptions& options);
+
 /// Opens the window, and returns when it is closed or a stop is requested.
 void open_window(const WindowOptions& options, const std::stop_token& stop);
 

@@ -139,7 +139,7 @@ void add_subject(CLI::App& command, SubjectOptions& subject) {
     command
         .add_option("--filter", subject.filter,
                     "Filter of " + filtering + " (default: as in " + filtering + ")")
-        ->type_name("NAME");
+        ->type_name(kFilterValue);
     command
         .add_option("--units", subject.units,
                     "Unit of surface files: mm, cm, m or um (default: mm)")

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "geometry/kernel/catalogue.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/pending_files.h"
 #include "geometry/kernel/printable.h"
@@ -45,9 +46,9 @@ using Json = nlohmann::ordered_json;
 constexpr double kPreparing = 0.3;
 
 Json prepared_json(const PrepareArguments& arguments, const PrepareSummary& made) {
-    std::vector<std::string> warnings;
+    std::vector<std::string> warnings, notes;
     for (const Diagnostic& warning : made.warnings)
-        warnings.push_back(worded_with_operation(warning));
+        (is_note(warning) ? notes : warnings).push_back(worded_with_operation(warning));
     return {{"purpose", arguments.purpose},
             {"folder", arguments.out},
             {"project", kProjectFile},
@@ -56,7 +57,8 @@ Json prepared_json(const PrepareArguments& arguments, const PrepareSummary& made
             {"not_met", made.not_met},
             {"print", made.print.empty() ? Json() : Json(made.print)},
             {"warnings", warnings},
-            {"diagnostics", diagnostics_json(made.warnings)}};
+            {"notes", notes},
+            {"diagnostics", reported_json(made.warnings)}};
 }
 
 /// The paths, then what the model misses, and last the verdict on a print.
@@ -144,7 +146,8 @@ int prepare_case(const PrepareArguments& arguments, const Progress& progress,
     const std::string project = (std::filesystem::path(arguments.out) / kProjectFile).string();
     const Teller tell(&remark, [&](const Diagnostic& warning) {
         const Audience reader{.project = project, .preparing = true};
-        warn(worded_with_operation(warning, reader));
+        const std::string text = worded_with_operation(warning, reader);
+        is_note(warning) ? remark("note: " + text) : warn(text);
     });
     const PrepareSummary made =
         prepare({.input = input_options(arguments.input, arguments.name),

@@ -205,7 +205,7 @@ void add_case_options(CLI::App& command, PrepareArguments& options) {
         .add_option("--recipe", options.recipe,
                     "Operations to use instead of the default ones: a file, or a bundled recipe: " +
                         joined(bundled_recipe_names()))
-        ->type_name("FILE|NAME");
+        ->type_name(kRecipeValue);
     add_settings(command, options.settings);
     add_end_options(command, options.ends);
     add_names(command, options.author, options.name);

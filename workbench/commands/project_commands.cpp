@@ -318,7 +318,7 @@ void add_export(CommandLine& line) {
     command.footer(export_footer());
     add_variant(command, options->variant, "Variant to write");
     add_settings(command, options->settings,
-                 "openfoam.parameter=value: change the flow of the case");
+                 "openfoam.parameter=value: change the flow of the case", kFlowSettingValue);
     command
         .add_option("--require", options->required,
                     "accepted, accepted=2: refuse unless so many reviewers have accepted every\n"

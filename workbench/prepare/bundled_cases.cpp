@@ -9,18 +9,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where the cases are, seen from a folder above the program.
 constexpr const char* kPlaces[] = {"cases", "share/vesselbench/cases"};
 
 }  // namespace
 
-fs::path bundled_cases_folder() {
+fs::path own_folder(std::span<const char* const> places, const fs::path& content) {
     std::error_code error;
     fs::path folder = fs::read_symlink("/proc/self/exe", error).parent_path();
     for (; !error && folder != folder.root_path(); folder = folder.parent_path())
-        for (const char* place : kPlaces)
-            if (fs::exists(folder / place / "aneurysm" / kCaseFile, error)) return folder / place;
+        for (const char* place : places)
+            if (fs::exists(folder / place / content, error)) return folder / place;
     return {};
+}
+
+fs::path bundled_cases_folder() {
+    return own_folder(kPlaces, fs::path("aneurysm") / kCaseFile);
 }
 
 fs::path bundled_case(const std::string& name) {

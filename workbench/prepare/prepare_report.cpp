@@ -4,10 +4,12 @@
 #include <array>
 #include <cmath>
 
+#include "geometry/kernel/catalogue.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/surface_distance.h"
 #include "geometry/kernel/triangle_shape.h"
+#include "geometry/vessel/ends/end_choice.h"
 #include "geometry/vessel/openings/openings.h"
 #include "workbench/case/argument_texts.h"
 #include "workbench/case/diagnostic_json.h"
@@ -180,11 +182,48 @@ std::vector<ClosedEnd> closed_ends(const Json& document) {
     return closed;
 }
 
+/// An end's number; 0: it has none, or is of an earlier version.
+int number_of(const Json& end) {
+    const Json number = end.value("number", Json());
+    return number.is_number() ? number.get<int>() : 0;
+}
+
+/// The number of the end that became an opening; 0: it has none.
+int number_of(const Json& ends, const Json& opening) {
+    const auto end = std::ranges::find_if(
+        ends, [&](const Json& one) { return one.value("opening", Json()) == opening; });
+    return end == ends.end() ? 0 : number_of(*end);
+}
+
+/// An end that stayed closed and would have a share of the flow.
+bool is_notable(const Json& end) {
+    const Json share = end.value("flow_share", Json());
+    return end["fate"] == to_string(EndFate::Closed) && share.is_number() &&
+           share.get<double>() > kLeastShare;
+}
+
+/// The openings of the model, and notable ends that stayed closed.
+std::vector<EndMark> end_marks(const Json& document) {
+    const auto place_in = [](const Json& json) {
+        const auto [x, y, z] = json.get<std::array<double, 3>>();
+        return Vec3(x, y, z);
+    };
+    const Json ends = document.value("ends", Json::array());
+    std::vector<EndMark> marks;
+    for (const Json& opening : document["openings"])
+        marks.push_back({place_in(opening["centroid"]), number_of(ends, opening["name"]),
+                         opening["kind"] == "inlet" ? ShownRole::Inlet : ShownRole::Outlet});
+    for (const Json& end : ends)
+        if (is_notable(end))
+            marks.push_back({place_in(end["place_mm"]), number_of(end), ShownRole::Closed});
+    return marks;
+}
+
 /// Without OpenGL, a warning says why there are none.
 void add_pictures(PreparedReport& report, const Surface& surface,
                   const std::optional<PictureSource>& source) {
     try {
-        report.pictures = report_pictures(surface, source);
+        report.pictures = report_pictures(surface, source, end_marks(report.document));
     } catch (const GpuUnavailable& error) {
         report.warnings.push_back({.code = "no-pictures", .words = {{"reason", error.what()}}});
     }
@@ -255,7 +294,8 @@ PreparedReport prepare_report(Session& session, const PreparedCase& prepared,
                {{"name", prepared.input.name},
                 {"kind", prepared.input.is_image ? "image" : "surface"},
                 {"mask", shown_file(prepared.input, prepared.input.mask.filename().string())}}},
-              {"warnings", Json::array()}};
+              {"warnings", Json::array()},
+              {"notes", Json::array()}};
     add_steps(made, edits, prepared.input);
     add_review(report, review_of(session, prepared.purpose));
     const auto source_edit = last_edit(edits, &RecipePart::makes_source);
@@ -286,8 +326,8 @@ PreparedReport prepare_report(Session& session, const PreparedCase& prepared,
             PictureSource{*source.surface, comparable, closed_ends(made.document)});
     add_pictures(made, surface, compared_with);
     for (const Diagnostic& warning : made.warnings)
-        report["warnings"].push_back(worded_with_operation(warning));
-    report["diagnostics"] = diagnostics_json(made.warnings);
+        report[is_note(warning) ? "notes" : "warnings"].push_back(worded_with_operation(warning));
+    report["diagnostics"] = reported_json(made.warnings);
     report["products"] = prepared.products;
     report["earlier_results"] = prepared.earlier_results;
     report = printable_json(std::move(report));

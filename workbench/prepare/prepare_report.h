@@ -28,7 +28,7 @@ struct PreparedReport {
     nlohmann::ordered_json document;  ///< report.json
     std::vector<ReportPicture> pictures;
     std::vector<ReportSection> sections;  ///< those of the edits, in order
-    std::vector<Diagnostic> warnings;     ///< all, as in the document
+    std::vector<Diagnostic> warnings;     ///< all, notes too, as in the document's diagnostics
 };
 
 /// Measures before and after, distances to the source and to the exact surface away from the

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/kernel/amounts.h"
+#include "geometry/kernel/catalogue.h"
 #include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
@@ -103,6 +104,11 @@ bool is_of(const EditPlace& place, const std::string& variant, Step last) {
 std::string reason_of(const std::exception& error, const Operation& operation) {
     const std::string text = error.what(), name = operation.name + ": ";
     return text.starts_with(name) ? text.substr(name.size()) : text;
+}
+
+/// Most surfaces without an image do not show the direction of its slices.
+bool lacks_stack_axis(const std::exception& error) {
+    return diagnostics_of(error).front().code == "stack-axis-uncertain";
 }
 
 /// An error as one of another class, which decides the exit code.
@@ -207,35 +213,34 @@ private:
             throw_as<AlgorithmFailure>(error);
         } catch (const AlgorithmFailure& error) {
             if (operation.recipe.proves_source) throw UnusableSource(diagnostics_of(error));
-            const std::string why = reason_of(error, operation);
-            if (entry.otherwise) return made_otherwise(entry, why, progress);
+            if (entry.otherwise) return made_otherwise(entry, error, progress);
             if (!entry.optional) throw;
             warn({.operation = operation.name,
                   .step = step_of(entry),
                   .diagnostic = {.code = "step-skipped",
                                  .operation = operation.name,
-                                 .words = {{"why", why}}},
+                                 .words = {{"why", reason_of(error, operation)}}},
                   .variant = own_variant(entry)});
             return std::nullopt;
         }
     }
 
-    std::optional<LogEntry> made_otherwise(const RecipeEntry& entry, const std::string& why,
+    std::optional<LogEntry> made_otherwise(const RecipeEntry& entry, const AlgorithmFailure& why,
                                            const Progress& progress) {
         RecipeEntry second = entry;
         second.otherwise.reset();
         second.given.set(*entry.otherwise);
-        const std::string& name = entry.given.operation().name;
+        const Operation& operation = entry.given.operation();
         std::string changed;
         for (const auto& [argument, value] : (*entry.otherwise)->values())
             changed += (changed.empty() ? "" : " ") + argument + "=" + to_text(value);
-        Diagnostic warning{.code = "made-otherwise",
-                           .operation = name,
-                           .words = {{"arguments", changed}, {"why", why}}};
+        Diagnostic warning{.code = lacks_stack_axis(why) ? "made-without-stack" : "made-otherwise",
+                           .operation = operation.name,
+                           .words = {{"arguments", changed}, {"why", reason_of(why, operation)}}};
         tell_.warn(warning);
         std::optional<LogEntry> done = made(second, progress);
         if (done) warning.edit = done->edit.edit.id;
-        note({name, step_of(entry), done ? std::optional(done->edit.edit) : std::nullopt,
+        note({operation.name, step_of(entry), done ? std::optional(done->edit.edit) : std::nullopt,
               std::move(warning), own_variant(entry)});
         return done;
     }
@@ -288,7 +293,7 @@ void Teller::warn(const Diagnostic& warning) const {
     if (warnings_)
         warnings_(warning);
     else
-        lines_("warning: " + worded_with_operation(warning));
+        lines_((is_note(warning) ? "note: " : "warning: ") + worded_with_operation(warning));
 }
 
 bool is_replaced(const RecipeEntry& entry, const std::vector<LogEntry>& log) {

@@ -21,7 +21,8 @@ public:
     using Lines = std::function<void(const std::string&)>;
     using Warnings = std::function<void(const Diagnostic&)>;
 
-    /// \param warnings empty: they are lines, too, with "warning: " before them
+    /// \param warnings empty: they are lines, too, with "warning: " or "note: " before
+    /// them
     template <class Tell>
 
     requires std::constructible_from<Lines, Tell> Teller(

@@ -1,18 +1,17 @@
 #include "workbench/report/report_html.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/wording.h"
-#include "workbench/case/argument_texts.h"
 #include "workbench/case/listed_finding.h"
 #include "workbench/case/purposes.h"
 #include "workbench/report/base64.h"
+#include "workbench/report/first_screen.h"
 #include "workbench/report/rendered_template.h"
 #include "workbench/report/report_template.h"
-#include "workbench/report/requirements.h"
+#include "workbench/report/report_texts.h"
 
 namespace vesselbench {
 
@@ -20,93 +19,21 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Below this, a number is a rounding error of lengths and angles.
-constexpr double kNothing = 1e-9;
-
-std::string number_text(double number) {
-    const double size = std::abs(number);
-    if (size < kNothing) return "0";
-    const char* format = size == 0 || (size >= 0.001 && size < 1e6) ? "%.4g" : "%.3g";
-    if (size >= 1000 && size < 1e9) format = "%.0f";
-    return formatted(number, format);
-}
-
-/// A key of the document in words, its unit in brackets: "mean_velocity_m_s" is "mean velocity
-/// [m/s]".
-std::string words_of(std::string key) {
-    static const std::vector<std::pair<std::string, std::string>> units = {
-        {"_kg_m3", "kg/m\u00B3"}, {"_cm3_s", "cm\u00B3/s"}, {"_m_s", "m/s"}, {"_pa_s", "Pa s"},
-        {"_mm3", "mm\u00B3"},     {"_mm2", "mm\u00B2"},     {"_mm", "mm"},   {"_deg", "deg"}};
-    std::string unit;
-    for (const auto& [ending, name] : units)
-        if (unit.empty() && key.ends_with(ending)) {
-            key.resize(key.size() - ending.size());
-            unit = " [" + name + "]";
-        }
-    std::ranges::replace(key, '_', ' ');
-    return key + unit;
-}
-
-/// Longer lists are left to report.json.
-constexpr std::size_t kMostNumbers = 9;
-
-bool is_long_list(const Json& value) {
-    return value.is_array() && value.size() > kMostNumbers && value.front().is_number();
-}
-
-/// One value in readable form.
-std::string shown(const Json& value) {
-    if (value.is_null()) return "-";
-    if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
-    if (value.is_number_integer()) return std::to_string(value.get<std::int64_t>());
-    if (value.is_number()) return number_text(value.get<double>());
-    if (value.is_string()) return value.get<std::string>();
-    if (is_long_list(value)) return std::to_string(value.size()) + " numbers";
-    if (value.is_array()) {
-        std::string text;
-        for (const Json& part : value) text += (text.empty() ? "" : ", ") + shown(part);
-        return text;
-    }
-    std::string text;
-    for (const auto& [key, part] : value.items())
-        text += (text.empty() ? "" : ", ") + words_of(key) + " " + shown(part);
-    return text;
-}
-
-const Json& part_of(const Json& json, const std::string& key) {
-    static const Json nothing;
-    return json.is_object() && json.contains(key) ? json[key] : nothing;
-}
-
-/// The values of some keys in readable form; "-": there is none.
-Json texts_of(const Json& json, std::initializer_list<const char*> keys) {
-    Json texts = Json::object();
-    for (const char* key : keys) texts[key] = shown(part_of(json, key));
-    return texts;
-}
-
-/// Each element of a list in readable form.
-Json texts_of(const Json& list) {
-    Json texts = Json::array();
-    for (const Json& part : list) texts.push_back(shown(part));
-    return texts;
-}
-
 Json tiles(const Json& report) {
-    const Json& after = part_of(part_of(report, "quality"), "after");
+    const Json& after = member_of(member_of(report, "quality"), "after");
     Json tiles = Json::array();
     const auto add = [&](const char* name, const std::string& value) {
         tiles.push_back({{"name", name}, {"value", value}});
     };
-    add("triangles", shown(part_of(after, "triangles")));
-    add("volume [mm\u00B3]", shown(part_of(after, "volume")));
-    add("openings", std::to_string(part_of(report, "openings").size()));
+    add("triangles", shown_text(member_of(after, "triangles")));
+    add("volume [mm\u00B3]", shown_text(member_of(after, "volume")));
+    add("openings", std::to_string(member_of(report, "openings").size()));
     if (report.contains("volume_mesh"))
         add(report["volume_mesh"].contains("prisms") ? "cells" : "tetrahedra",
-            shown(part_of(report["volume_mesh"], "cells")));
-    const Json& inlets = part_of(part_of(report, "flow"), "inlets");
-    if (!inlets.empty()) add("Reynolds number", shown(part_of(inlets[0], "reynolds")));
-    add("warnings", std::to_string(part_of(report, "warnings").size()));
+            shown_text(member_of(report["volume_mesh"], "cells")));
+    const Json& inlets = member_of(member_of(report, "flow"), "inlets");
+    if (!inlets.empty()) add("Reynolds number", shown_text(member_of(inlets[0], "reynolds")));
+    add("warnings", std::to_string(member_of(report, "warnings").size()));
     return tiles;
 }
 
@@ -118,40 +45,40 @@ Json gallery(std::span<const ReportPicture> pictures) {
 }
 
 std::string seconds_text(const Json& value) {
-    return value.is_number() ? formatted(value.get<double>(), "%.1f") : shown(value);
+    return value.is_number() ? formatted(value.get<double>(), "%.1f") : shown_text(value);
 }
 
 std::string volume_text(const Json& change) {
-    const Json &before = part_of(change, "volume_before_mm3"),
-               &after = part_of(change, "volume_after_mm3");
+    const Json &before = member_of(change, "volume_before_mm3"),
+               &after = member_of(change, "volume_after_mm3");
     if (before.is_number() && after.is_number() && before.get<double>() > 0)
-        return number_text(100.0 * (after.get<double>() / before.get<double>() - 1.0)) + " %";
-    const Json& reason = part_of(change, "no_volume_change");
-    return reason.is_string() ? "- (" + shown(reason) + ")" : "-";
+        return figure_text(100.0 * (after.get<double>() / before.get<double>() - 1.0)) + " %";
+    const Json& reason = member_of(change, "no_volume_change");
+    return reason.is_string() ? "- (" + shown_text(reason) + ")" : "-";
 }
 
 /// Records, such as the planes of cuts, are left to report.json.
 std::string argument_shown(const Json& value) {
     const bool records = value.is_array() && !value.empty() && value.front().is_object();
-    return records ? counted(value.size(), "record") : shown(value);
+    return records ? counted(value.size(), "record") : shown_text(value);
 }
 
 Json step_texts(const Json& step) {
-    const Json& change = part_of(step, "change");
+    const Json& change = member_of(step, "change");
     std::vector<std::string> arguments;
-    for (const auto& [name, value] : part_of(step, "resolved").items())
+    for (const auto& [name, value] : member_of(step, "resolved").items())
         arguments.push_back(name + "=" + argument_shown(value));
-    Json texts = texts_of(step, {"edit", "step", "operation"});
+    Json texts = shown_texts(step, {"edit", "step", "operation"});
     texts.update(
-        texts_of(change, {"triangles_after", "mean_deviation_mm", "largest_deviation_mm"}));
+        shown_texts(change, {"triangles_after", "mean_deviation_mm", "largest_deviation_mm"}));
     texts.update({{"arguments", joined(arguments)},
-                  {"seconds", seconds_text(part_of(step, "duration_s"))},
+                  {"seconds", seconds_text(member_of(step, "duration_s"))},
                   {"volume", volume_text(change)}});
     return texts;
 }
 
 Json quality(const Json& report) {
-    const Json& both = part_of(report, "quality");
+    const Json& both = member_of(report, "quality");
     static const std::vector<std::pair<const char*, const char*>> names = {
         {"triangles", "triangles"},
         {"components", "components"},
@@ -170,13 +97,13 @@ Json quality(const Json& report) {
     Json rows = Json::array();
     for (const auto& [key, name] : names)
         rows.push_back({{"name", name},
-                        {"before", shown(part_of(part_of(both, "before"), key))},
-                        {"after", shown(part_of(part_of(both, "after"), key))}});
-    const Json& wall = part_of(both, "wall");
+                        {"before", shown_text(member_of(member_of(both, "before"), key))},
+                        {"after", shown_text(member_of(member_of(both, "after"), key))}});
+    const Json& wall = member_of(both, "wall");
     if (wall.is_object())
         rows.push_back({{"name", "wall only: skewness, radius ratio"},
                         {"before", ""},
-                        {"after", shown(wall)}});
+                        {"after", shown_text(wall)}});
     return rows;
 }
 
@@ -187,35 +114,32 @@ bool is_for_flow(const Json& report) {
 
 Json openings(const Json& report) {
     Json list = Json::array();
-    for (const Json& patch : part_of(report, "openings"))
-        list.push_back(texts_of(patch, {"name", "kind", "diameter", "area", "centroid", "normal",
-                                        "flatness", "tilt_deg"}));
+    for (const Json& patch : member_of(report, "openings")) {
+        Json texts = shown_texts(
+            patch, {"name", "kind", "diameter", "area", "normal", "flatness", "tilt_deg"});
+        texts["end"] = end_number(report, member_of(patch, "name"));
+        texts["centroid"] = place_argument(member_of(patch, "centroid"));
+        list.push_back(std::move(texts));
+    }
     return list;
-}
-
-/// As an argument, to be copied.
-std::string place_text(const Json& place) {
-    if (!place.is_array() || place.size() != 3) return shown(place);
-    const Vec3 point(place[0].get<double>(), place[1].get<double>(), place[2].get<double>());
-    return to_text(Value(rounded_place(point)));
 }
 
 /// Name and diameter in the model: "outlet_1, 3.2 mm"; empty for an end without an opening.
 std::string opening_text(const Json& report, const Json& name) {
     if (name.is_null()) return "";
-    for (const Json& patch : part_of(report, "openings"))
-        if (part_of(patch, "name") == name && part_of(patch, "diameter").is_number())
-            return shown(name) + ", " + shown(patch["diameter"]) + " mm";
-    return shown(name);
+    for (const Json& patch : member_of(report, "openings"))
+        if (member_of(patch, "name") == name && member_of(patch, "diameter").is_number())
+            return shown_text(name) + ", " + shown_text(patch["diameter"]) + " mm";
+    return shown_text(name);
 }
 
 /// What became of every vessel end, worst first.
 Json ends(const Json& report) {
     Json list = Json::array();
-    for (const Json& end : part_of(report, "ends")) {
-        Json texts = texts_of(end, {"diameter_mm", "fate", "why"});
-        texts["place"] = place_text(part_of(end, "place_mm"));
-        texts["opening"] = opening_text(report, part_of(end, "opening"));
+    for (const Json& end : member_of(report, "ends")) {
+        Json texts = shown_texts(end, {"number", "diameter_mm", "fate", "why"});
+        texts["place"] = place_argument(member_of(end, "place_mm"));
+        texts["opening"] = opening_text(report, member_of(end, "opening"));
         list.push_back(std::move(texts));
     }
     return list;
@@ -224,42 +148,42 @@ Json ends(const Json& report) {
 /// "brush-smooth at=1,2,3 radius=2"
 std::string treatment_text(const Json& operation) {
     if (!operation.is_object()) return "-";
-    std::string text = shown(part_of(operation, "name"));
-    for (const auto& [name, value] : part_of(operation, "arguments").items())
-        text += " " + name + "=" + shown(value);
+    std::string text = shown_text(member_of(operation, "name"));
+    for (const auto& [name, value] : member_of(operation, "arguments").items())
+        text += " " + name + "=" + shown_text(value);
     return text;
 }
 
 /// What a finding may be, a line each; none: it is no question.
 Json readings(const Json& finding) {
     Json lines = Json::array();
-    for (const Json& reading : part_of(finding, "readings"))
-        lines.push_back(shown(part_of(reading, "text")));
+    for (const Json& reading : member_of(finding, "readings"))
+        lines.push_back(shown_text(member_of(reading, "text")));
     return lines;
 }
 
 /// "96 % that a branch ends blind and short"
 std::string certainty_text(const Json& finding) {
-    const Json& certainty = part_of(finding, "certainty");
-    if (!certainty.is_number()) return shown(certainty);
+    const Json& certainty = member_of(finding, "certainty");
+    if (!certainty.is_number()) return shown_text(certainty);
     const std::string share = formatted(100.0 * certainty.get<double>(), "%.0f %%");
-    const Json& of = part_of(finding, "certain_of");
-    return of.is_string() ? share + " that " + shown(of) : share;
+    const Json& of = member_of(finding, "certain_of");
+    return of.is_string() ? share + " that " + shown_text(of) : share;
 }
 
 /// What looks wrong on the model, the worst first. \param listed those that are, or the
 /// others
 Json findings(const Json& report, bool listed) {
     Json list = Json::array();
-    for (const Json& finding : part_of(report, "findings"))
+    for (const Json& finding : member_of(report, "findings"))
         if (is_listed_finding(finding) == listed)
-            list.push_back({{"title", shown(part_of(finding, "title"))},
-                            {"id", shown(part_of(finding, "id"))},
-                            {"text", shown(part_of(finding, "text"))},
+            list.push_back({{"title", shown_text(member_of(finding, "title"))},
+                            {"id", shown_text(member_of(finding, "id"))},
+                            {"text", shown_text(member_of(finding, "text"))},
                             {"readings", readings(finding)},
                             {"certainty", certainty_text(finding)},
                             {"treatment", readings(finding).empty()
-                                              ? treatment_text(part_of(finding, "operation"))
+                                              ? treatment_text(member_of(finding, "operation"))
                                               : "a question"}});
     return list;
 }
@@ -267,13 +191,10 @@ Json findings(const Json& report, bool listed) {
 /// The sheet of thesis Table 2.1.
 Json requirements(const Json& report) {
     Json list = Json::array();
-    for (const Json& row : part_of(report, "requirements")) {
-        Json texts =
-            texts_of(row, {"requirement", "relevance", "figures", "limit", "reason", "judgement"});
-        const Json& judgement = part_of(row, "judgement");
-        texts["class"] = judgement == to_string(Judgement::Met)      ? "good"
-                         : judgement == to_string(Judgement::NotMet) ? "bad"
-                                                                     : "";
+    for (const Json& row : member_of(report, "requirements")) {
+        Json texts = shown_texts(
+            row, {"requirement", "relevance", "figures", "limit", "reason", "judgement"});
+        texts["class"] = judgement_class(member_of(row, "judgement"));
         list.push_back(std::move(texts));
     }
     return list;
@@ -320,11 +241,11 @@ Json sections_of(const Json& report, std::span<const ReportSection> declared) {
     Json list = Json::array();
     for (const auto& sections : {std::span<const ReportSection>(usual_sections()), declared})
         for (const ReportSection& section : sections) {
-            const Json& part = part_of(report, section.key);
+            const Json& part = member_of(report, section.key);
             if (!part.is_object()) continue;
             Json rows = Json::array();
             for (const auto& [name, value] : part.items())
-                rows.push_back({{"name", words_of(name)}, {"value", shown(value)}});
+                rows.push_back({{"name", key_text(name)}, {"value", shown_text(value)}});
             list.push_back({{"title", section.title}, {"about", section.about}, {"rows", rows}});
         }
     return list;
@@ -341,15 +262,22 @@ std::string title_of(const std::string& name) {
 std::string report_html(const Json& report, std::span<const ReportPicture> pictures,
                         std::span<const ReportSection> sections) {
     Json steps = Json::array();
-    for (const Json& step : part_of(report, "steps")) steps.push_back(step_texts(step));
-    Json page = {{"input", shown(part_of(part_of(report, "input"), "name"))},
+    for (const Json& step : member_of(report, "steps")) steps.push_back(step_texts(step));
+    const std::size_t shown_first = std::min<std::size_t>(1, pictures.size());
+    Json page = {{"input", shown_text(member_of(member_of(report, "input"), "name"))},
                  {"title", title_of(report.value("purpose", ""))},
-                 {"version", shown(part_of(report, "program_version"))},
-                 {"units", shown(part_of(report, "units_text"))},
+                 {"version", shown_text(member_of(report, "program_version"))},
+                 {"units", shown_text(member_of(report, "units_text"))},
+                 {"review", report.contains("review")
+                                ? shown_text(member_of(report["review"], "state"))
+                                : "not reviewed"},
                  {"for_flow", is_for_flow(report)},
                  {"tiles", tiles(report)},
-                 {"warnings", texts_of(part_of(report, "warnings"))},
-                 {"pictures", gallery(pictures)},
+                 {"first", first_screen(report, sections)},
+                 {"first_picture", gallery(pictures.first(shown_first))},
+                 {"warnings", shown_texts(member_of(report, "warnings"))},
+                 {"notes", shown_texts(member_of(report, "notes"))},
+                 {"pictures", gallery(pictures.subspan(shown_first))},
                  {"steps", steps},
                  {"quality", quality(report)},
                  {"requirements", requirements(report)},
@@ -358,12 +286,14 @@ std::string report_html(const Json& report, std::span<const ReportPicture> pictu
                  {"findings", findings(report, true)},
                  {"folded", findings(report, false)},
                  {"sections", sections_of(report, sections)},
-                 {"products", texts_of(part_of(report, "products"))}};
-    for (const char* list : {"warnings", "findings", "pictures", "requirements", "ends"})
+                 {"products", shown_texts(member_of(report, "products"))}};
+    for (const char* list : {"warnings", "notes", "findings", "pictures", "requirements", "ends"})
         page[std::string("any_") + list] = !page[list].empty();
     page["any_folded"] = !page["folded"].empty();
     page["any_found"] = page["any_findings"].get<bool>() || page["any_folded"].get<bool>();
+    page["any_looks"] = page["any_warnings"].get<bool>() || page["any_found"].get<bool>();
     page["folded_count"] = std::to_string(page["folded"].size());
+    page["listed_text"] = counted(page["findings"].size(), "finding");
     return rendered_template(report_templates().at("report.html"), page);
 }
 

@@ -10,6 +10,7 @@
 #include "geometry/kernel/surface_distance.h"
 #include "geometry/kernel/wording.h"
 #include "gpu/png.h"
+#include "workbench/report/label_text.h"
 
 namespace vesselbench {
 
@@ -27,6 +28,21 @@ const std::array<View, 3> kViews = {{{"from the front", Vec3(0, 1, 0), Vec3(0, 0
                                      {"from above", Vec3(0, 0, -1), Vec3(0, -1, 0)}}};
 
 constexpr int kPixels = 700;
+
+/// Height of the ends' numbers: they are read in pictures shown at half their size, too [pixels].
+constexpr double kDigit = 26.0;
+
+/// Half the height of a view that shows a surface and the numbers beside its ends [mm].
+double marked_half_height(const Surface& surface, const View& view) {
+    constexpr double kMargin = 1.12;
+    const Vec3 centre = bounds(surface).centre();
+    const Vec3 right = view.direction.cross(view.up);
+    double most = 0.0;
+    for (const Vec3& p : surface.points())
+        most = std::max(
+            {most, std::abs((p - centre).dot(right)), std::abs((p - centre).dot(view.up))});
+    return kMargin * most;
+}
 
 PictureOptions options_for(const View& view, std::vector<Colour> colours) {
     return {.width = kPixels,
@@ -49,19 +65,29 @@ struct Series {
         }
     }
 
-    void draw_into(std::vector<ReportPicture>& pictures, const Surface& surface) const {
+    void draw_into(std::vector<ReportPicture>& pictures, const Surface& surface,
+                   std::span<const EndMark> ends = {}) const {
         if (views.empty()) return;
-        const std::vector<Picture> drawn = draw_views(surface, views);
-        for (std::size_t i = 0; i < drawn.size(); ++i)
+        std::vector<Picture> drawn = draw_views(surface, views);
+        for (std::size_t i = 0; i < drawn.size(); ++i) {
+            draw_marks(drawn[i], ends, views[i], bounds(surface).centre(), kDigit);
             pictures.push_back({titles[i], png(drawn[i])});
+        }
     }
 };
 
-Series series_of_model(const Surface& surface, const std::optional<PictureSource>& source) {
+/// Each view just holds the surface and its marks.
+Series series_of_patches(const Surface& surface) {
     Series series;
     series.add("Patches", {});
-    if (!source) return series;
-    const auto [colours, full] = deviation_colours(surface, source->surface, source->comparable);
+    for (std::size_t i = 0; i < kViews.size(); ++i)
+        series.views[i].half_height = marked_half_height(surface, kViews[i]);
+    return series;
+}
+
+Series series_of_deviation(const Surface& surface, const PictureSource& source) {
+    Series series;
+    const auto [colours, full] = deviation_colours(surface, source.surface, source.comparable);
     series.add("Deviation from the source", colours, ": " + deviation_legend(full));
     return series;
 }
@@ -83,10 +109,30 @@ Series series_of_source(const PictureSource& source, const Surface& model) {
 
 }  // namespace
 
+void draw_marks(Picture& picture, std::span<const EndMark> ends, const PictureOptions& options,
+                const Vec3& centre, double digit) {
+    // Of numbers: roles' colours are too light for thin strokes on white.
+    constexpr PixelColour kInk = {25, 30, 35};
+    const Vec3 right = options.view.cross(options.up).normalized();
+    const Vec3 up = right.cross(options.view).normalized();
+    const double scale = 0.5 * picture.height / options.half_height;
+    for (const EndMark& end : ends) {
+        const Vec3 p = end.place - centre;
+        const Eigen::Vector2d at(0.5 * picture.width + scale * p.dot(right),
+                                 0.5 * picture.height - scale * p.dot(up));
+        draw_stroke(picture, at, at, 0.7 * digit, pixel_colour(role_colour(end.role)));
+        if (end.number > 0)
+            write_text(picture, at.x() + 0.5 * digit, at.y() - 0.4 * digit,
+                       std::to_string(end.number), digit, kInk);
+    }
+}
+
 std::vector<ReportPicture> report_pictures(const Surface& surface,
-                                           const std::optional<PictureSource>& source) {
+                                           const std::optional<PictureSource>& source,
+                                           std::span<const EndMark> ends) {
     std::vector<ReportPicture> pictures;
-    series_of_model(surface, source).draw_into(pictures, surface);
+    series_of_patches(surface).draw_into(pictures, surface, ends);
+    if (source) series_of_deviation(surface, *source).draw_into(pictures, surface);
     if (source) series_of_source(*source, surface).draw_into(pictures, source->surface);
     return pictures;
 }

@@ -2,11 +2,13 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "geometry/kernel/surface.h"
 #include "gpu/picture.h"
+#include "gpu/role_colours.h"
 #include "workbench/report/colour_scale.h"
 #include "workbench/report/report_html.h"
 #include "workbench/report/source_parts.h"
@@ -22,11 +24,25 @@ struct PictureSource {
     std::vector<ClosedEnd> closed;  ///< ends that were left closed
 };
 
-/// The surface from three sides, and coloured by its deviation from the source (blue inside, red
-/// outside of it); the source with its closed ends and lost parts in colours of their own, if there
-/// are any. \throw GpuUnavailable without usable OpenGL
-[[nodiscard]] std::vector<ReportPicture> report_pictures(
-    const Surface& surface, const std::optional<PictureSource>& source);
+/// A vessel end in pictures: a dot in its role's colour, with its number beside it.
+struct EndMark {
+    Vec3 place;      ///< [mm]
+    int number = 0;  ///< 0: it has none
+    ShownRole role = ShownRole::Outlet;
+};
+
+/// Marks ends in a square picture.
+/// \param options of the picture, with its half height
+/// \param centre of the surface's bounds [mm] \param digit height of a number [pixels]
+void draw_marks(Picture& picture, std::span<const EndMark> ends, const PictureOptions& options,
+                const Vec3& centre, double digit);
+
+/// The surface from three sides, with its ends, and coloured by its deviation from the source (blue
+/// inside, red outside of it); the source with its closed ends and lost parts in colours of their
+/// own, if there are any. \throw GpuUnavailable without usable OpenGL
+[[nodiscard]] std::vector<ReportPicture> report_pictures(const Surface& surface,
+                                                         const std::optional<PictureSource>& source,
+                                                         std::span<const EndMark> ends = {});
 
 /// The surface from the same sides, coloured by a measure of its vertices, with its scale.
 /// \param values #V \param title of the scale and of the pictures: "Wall shear stress [Pa]"

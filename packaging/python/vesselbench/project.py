@@ -154,6 +154,7 @@ class _PreparedDocument(Result):
     reports: tuple[str, ...]
     products: tuple[str, ...]
     warnings: tuple[str, ...]
+    notes: tuple[str, ...]
     diagnostics: tuple[Diagnostic, ...]
 
 
@@ -166,14 +167,15 @@ class Prepared(Result):
     project: Project
     products: tuple[str, ...]  #: names of files in the folder
     warnings: tuple[str, ...]
-    diagnostics: tuple[Diagnostic, ...] = field(repr=False)  #: the warnings in parts
+    notes: tuple[str, ...]  #: what needs nobody to look at it
+    diagnostics: tuple[Diagnostic, ...] = field(repr=False)  #: warnings and notes in parts
 
     @classmethod
     def of(cls, document: Mapping[str, Any], folder: Path, program: Program) -> Prepared:
         """From the JSON document of `prepare`."""
         made = read(_PreparedDocument, document, "prepare")
-        return cls(made.purpose, folder, Project(folder / made.project, program=program), made.products, made.warnings,
-                   made.diagnostics, document=document)
+        return cls(made.purpose, folder, Project(folder / made.project, program=program), made.products,
+                   made.warnings, made.notes, made.diagnostics, document=document)
 
     @property
     def surface(self) -> Path:

@@ -35,7 +35,7 @@ class Diagnostic(Result):
     """A warning or an error in parts."""
 
     code: str  #: a name that stays the same, such as 'end-decided'
-    severity: str  #: warning, error
+    severity: str  #: note, warning, error
     text: str
     operation: str  #: empty: of none
     place_mm: Point | None

@@ -1,6 +1,7 @@
 #include "workbench/commands/shell/bash_completion.h"
 
 #include "workbench/commands/shell/completion_words.h"
+#include "workbench/export/flow_parameters.h"
 
 namespace vesselbench {
 
@@ -67,8 +68,10 @@ std::string bash_completion(std::span<const CommandRow> commands,
            in_quotes(spaced(command_words(commands))) +
            "\n  elif [ \"$before\" = = ]; then\n"
            "    local at=$((COMP_CWORD - 1))\n"
-           "    [ \"${COMP_WORDS[at]}\" = = ] || at=$COMP_CWORD\n" +
-           chosen("$operation,${COMP_WORDS[at-1]}", arguments(operations)) +
+           "    [ \"${COMP_WORDS[at]}\" = = ] || at=$COMP_CWORD\n"
+           "    local name=${COMP_WORDS[at-1]}\n"
+           "    [[ $name != *.* ]] || { operation=${name%%.*}; name=${name#*.}; }\n" +
+           chosen("$operation,$name", arguments(operations) + arguments({&flow_table(), 1})) +
            "  elif [[ $word == -* ]]; then\n" + chosen("$command", options(commands)) + "  else\n" +
            chosen("$command,$before", values(commands)) + "    case $command in\n        " +
            taking_operations(commands) +
@@ -76,8 +79,9 @@ std::string bash_completion(std::span<const CommandRow> commands,
            "    if [ \"$COMP_CWORD\" -eq 3 ]; then words=" +
            in_quotes(spaced(operation_words(operations))) +
            "\n    elif [ \"$COMP_CWORD\" -gt 3 ] && [ -z \"$words\" ]; then\n" +
-           "    compopt -o nospace 2> /dev/null\n" + chosen("$operation", parameters(operations)) +
+           chosen("$operation", parameters(operations)) +
            "    fi ;;\n    esac\n  fi\n"
+           "  [[ $words != *= ]] || compopt -o nospace 2> /dev/null\n"
            "  COMPREPLY=()\n"
            "  [ -z \"$words\" ] || mapfile -t COMPREPLY < <(compgen -W \"$words\" -- \"$word\")\n"
            "}\n"

@@ -3,6 +3,13 @@
 #include <algorithm>
 #include <sstream>
 
+#include "workbench/commands/command_parser.h"
+#include "workbench/commands/shell/completion_words.h"
+#include "workbench/export/flow_parameters.h"
+#include "workbench/operations/table.h"
+#include "workbench/prepare/recipe_document.h"
+#include "workbench/suggest/processing_subject.h"
+
 namespace vesselbench {
 
 namespace {
@@ -13,8 +20,29 @@ bool is_listed(const Listed& listed) {
     return !listed.get_group().empty();
 }
 
+/// Of the operations whose filters are searched.
+std::vector<std::string> filter_names() {
+    for (const std::string& name : searched_operations(searches_filter))
+        for (const Parameter& parameter : find_operation(name).parameters)
+            if (parameter.name == "filter") return parameter.choices;
+    return {};
+}
+
+/// What a kind of value in capitals may be.
+std::vector<std::string> words_of_kind(const std::string& value) {
+    const std::span<const Operation> flow(&flow_table(), 1);
+    if (value == kRecipeValue) return bundled_recipe_names();
+    if (value == kFilterValue) return filter_names();
+    if (value == kFlowSettingValue) return setting_words(flow);
+    if (value != kSettingValue) return {};
+    std::vector<std::string> words = setting_words(operation_table());
+    std::ranges::copy(setting_words(flow), std::back_inserter(words));
+    return words;
+}
+
 /// "cfd|rp" is a choice; "FILE|N,N" names two kinds of values.
 std::vector<std::string> choices_in(const std::string& value) {
+    if (std::vector<std::string> kind = words_of_kind(value); !kind.empty()) return kind;
     const bool words = std::ranges::all_of(
         value, [](char letter) { return letter == '|' || (letter >= 'a' && letter <= 'z'); });
     std::vector<std::string> choices;
@@ -33,6 +61,7 @@ OptionRow option_row(const CLI::Option& option) {
     if (option.get_items_expected_max() == 0) return row;
     row.value = option.get_type_name().empty() ? "VALUE" : option.get_type_name();
     row.choices = choices_in(row.value);
+    row.takes_files = row.value.starts_with("FILE");
     return row;
 }
 

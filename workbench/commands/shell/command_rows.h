@@ -14,6 +14,7 @@ struct OptionRow {
     std::string value;   ///< what follows it: "FILE", "cfd|rp"; empty: nothing
     std::string help;
     std::vector<std::string> choices;  ///< of the value; empty: any
+    bool takes_files = false;          ///< beside the choices
 };
 
 /// What can be typed after one command.

@@ -51,4 +51,20 @@ std::vector<std::string> parameter_words(const Operation& operation) {
     return words;
 }
 
+std::vector<std::string> argument_words(const Operation& operation) {
+    std::vector<std::string> words;
+    for (const Parameter& parameter : operation.parameters)
+        for (const std::string& choice : parameter.choices)
+            words.push_back(parameter.name + "=" + choice);
+    return words;
+}
+
+std::vector<std::string> setting_words(std::span<const Operation> operations) {
+    std::vector<std::string> words;
+    for (const Operation& operation : operations)
+        for (const std::string& parameter : parameter_words(operation))
+            words.push_back(operation.name + "." + parameter);
+    return words;
+}
+
 }  // namespace vesselbench

@@ -24,4 +24,10 @@ namespace vesselbench {
 /// "name=" of each parameter that users type.
 [[nodiscard]] std::vector<std::string> parameter_words(const Operation& operation);
 
+/// "filter=laplace": the arguments whose values are known.
+[[nodiscard]] std::vector<std::string> argument_words(const Operation& operation);
+
+/// "smooth.filter=" of each parameter that users type, as --set takes them.
+[[nodiscard]] std::vector<std::string> setting_words(std::span<const Operation> operations);
+
 }  // namespace vesselbench

@@ -17,7 +17,7 @@ std::string seen(const std::string& command) {
 std::string option_line(const CommandRow& command, const OptionRow& option) {
     std::string rest = "-l " + option.name.substr(2);
     if (!option.choices.empty())
-        rest += " -x -a " + in_quotes(spaced(option.choices));
+        rest += (option.takes_files ? " -r -a " : " -x -a ") + in_quotes(spaced(option.choices));
     else if (!option.value.empty())
         rest += " -r";
     return line(seen(command.name), rest + " -d " + in_quotes(brief(option.help)));
@@ -31,7 +31,8 @@ std::string operation_lines(const std::string& command, std::span<const Operatio
                       "-f -a " + operation.name + " -d " + in_quotes(operation.summary));
         const std::string after =
             seen(command) + "; and contains -- " + operation.name + " (commandline -opc)[4..]";
-        lines += line(after, "-f -a " + in_quotes(spaced(parameter_words(operation))));
+        lines += line(after, "-f -a " + in_quotes(spaced(parameter_words(operation)) + " " +
+                                                  spaced(argument_words(operation))));
     }
     return lines;
 }

@@ -57,6 +57,22 @@ std::string command_section(const CommandRow& command) {
     return text + verbatim(command.footer);
 }
 
+/// What the program writes beside what it is asked for (docs/user/privacy.md).
+std::string files_section() {
+    return ".SH FILES\n" +
+           tagged("$XDG_CONFIG_HOME/vesselbench",
+                  "The window's settings; without the variable, in ~/.config.") +
+           tagged("$XDG_STATE_HOME/vesselbench",
+                  "Reports of crashes, which are sent nowhere; without the variable, in "
+                  "~/.local/state.") +
+           tagged("$XDG_CACHE_HOME/vesselbench",
+                  "What can be made again; without the variable, in ~/.cache.") +
+           tagged("/usr/share/doc/vesselbench/html/index.html", "The handbook, of a package.") +
+           tagged("/usr/share/vesselbench/cases", "Bundled cases, of a package.") +
+           tagged("/usr/share/vesselbench/recipe.schema.json",
+                  "The JSON Schema of recipes, for editors.");
+}
+
 }  // namespace
 
 std::string manual_page(std::span<const CommandRow> commands,
@@ -80,7 +96,11 @@ std::string manual_page(std::span<const CommandRow> commands,
     return text +
            ".SH EXIT STATUS\n"
            ".TP\n0\nDone.\n.TP\n1\nThe operation could not be done.\n.TP\n2\nWrong usage.\n"
-           ".TP\n3\nThe input is bad.\n";
+           ".TP\n3\nThe input is bad.\n" +
+           files_section() +
+           ".SH SEE ALSO\n"
+           "\\fBvesselbench docs\\fR shows the handbook, which explains every figure.\n"
+           ".PP\n.BR gmsh (1),\n.BR ssh\\-keygen (1)\n";
 }
 
 }  // namespace vesselbench

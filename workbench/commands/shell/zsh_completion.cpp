@@ -21,8 +21,10 @@ std::string option_words(const OptionRow& option) {
         option.name + (option.value.empty() ? "" : "=") + "[" + escaped(brief(option.help)) + "]";
     if (option.value.empty()) return in_quotes(text);
     text += ":" + escaped(option.value) + ":";
-    return in_quotes(text +
-                     (option.choices.empty() ? "_files" : "(" + spaced(option.choices) + ")"));
+    if (option.choices.empty()) return in_quotes(text + "_files");
+    const std::string words = spaced(option.choices);
+    return in_quotes(
+        text + (option.takes_files ? "{compadd -- " + words + "; _files}" : "(" + words + ")"));
 }
 
 std::string arguments_of(const CommandRow& command, std::span<const Operation> operations) {
@@ -42,6 +44,17 @@ std::string parameter_rows(std::span<const Operation> operations) {
     return rows;
 }
 
+/// What follows "filter=".
+std::string value_rows(std::span<const Operation> operations) {
+    std::string rows;
+    for (const Operation& operation : operations)
+        for (const Parameter& parameter : operation.parameters)
+            if (!parameter.choices.empty())
+                rows += "    " + operation.name + "," + parameter.name + ") compadd -- " +
+                        spaced(parameter.choices) + " ;;\n";
+    return rows;
+}
+
 }  // namespace
 
 std::string zsh_completion(std::span<const CommandRow> commands,
@@ -55,6 +68,12 @@ std::string zsh_completion(std::span<const CommandRow> commands,
     }
     return "#compdef vesselbench\n"
            "_vesselbench_parameters() {\n"
+           "  if compset -P '*='; then\n"
+           "    case $words[3],${IPREFIX%=} in\n" +
+           value_rows(operations) +
+           "    esac\n"
+           "    return\n"
+           "  fi\n"
            "  case $words[3] in\n" +
            parameter_rows(operations) +
            "  esac\n"

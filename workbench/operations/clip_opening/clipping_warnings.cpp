@@ -15,13 +15,18 @@ namespace {
 
 using nlohmann::ordered_json;
 
+/// "end 3", or "the open rim of end 3"; an end that belongs to another one has no number.
+std::string name_of(const EndRecord& end) {
+    const std::string number = end.number > 0 ? "end " + std::to_string(end.number) : "";
+    if (end.rim) return "the open rim" + (number.empty() ? "" : " of " + number);
+    return number.empty() ? "the end" : number;
+}
+
 Diagnostic decided(const EndRecord& end) {
     return {.code = "end-decided",
             .place = end.place,
             .figures = {{"diameter_mm", end.diameter}, {"number", end.number}},
-            .words = {{"end", end.rim ? "the open rim" : "the end"},
-                      {"fate", to_string(end.fate)},
-                      {"why", end.why}}};
+            .words = {{"end", name_of(end)}, {"fate", to_string(end.fate)}, {"why", end.why}}};
 }
 
 /// How many small ends stayed closed, and how to open those that are no sacs, if they are few.

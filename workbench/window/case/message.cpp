@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "geometry/kernel/catalogue.h"
 #include "workbench/case/diagnostic_words.h"
 #include "workbench/window/case/local_time.h"
 #include "workbench/window/case/readable.h"
@@ -27,13 +28,15 @@ Message make_message(MessageKind kind, std::string text) {
 }
 
 Message make_message(const Diagnostic& diagnostic) {
-    const bool failed = diagnostic.severity == Severity::Error;
+    const MessageKind kind = diagnostic.severity == Severity::Error ? MessageKind::Error
+                             : is_note(diagnostic)                  ? MessageKind::Remark
+                                                                    : MessageKind::Warning;
     std::vector<Remedy> remedies = diagnostic.remedies;
     for (Remedy& remedy : remedies)
         if (remedy.operation.empty()) remedy.operation = diagnostic.operation;
     std::string text = worded_with_operation(diagnostic, {.window = true});
     if (begins_with_word(text)) text = readable_sentence(std::move(text));
-    return {.kind = failed ? MessageKind::Error : MessageKind::Warning,
+    return {.kind = kind,
             .text = std::move(text),
             .time = local_time("%H:%M:%S"),
             .edit = diagnostic.edit,
@@ -46,7 +49,7 @@ bool holds_now(const Message& message, const Snapshot& snapshot, const std::stri
                bool previewed) {
     if (message.of_preview) return previewed;
     if (!message.variant.empty() && message.variant != variant) return false;
-    if (message.kind != MessageKind::Warning || !message.edit) return true;
+    if (!message.edit || (message.kind != MessageKind::Warning && !message.result)) return true;
     const auto entry = std::ranges::find(snapshot.log, *message.edit,
                                          [](const LogEntry& e) { return e.edit.edit.id; });
     if (entry == snapshot.log.end() || !is_part_of(entry->edit.place, variant)) return false;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "geometry/kernel/catalogue.h"
 #include "workbench/case/diagnostic_words.h"
 #include "workbench/operations/table.h"
 #include "workbench/report/log_json.h"
@@ -42,7 +43,9 @@ RailEdit rail_edit(const LogEntry& entry) {
                  .places = places_of_edit(entry)};
     if (entry.result) {
         row.change = effect_text(*entry.result);
-        row.warnings = worded(entry.result->warnings, {.window = true});
+        for (const Diagnostic& warning : entry.result->warnings)
+            (is_note(warning) ? row.notes : row.warnings)
+                .push_back(worded(warning, {.window = true}));
     }
     return row;
 }
@@ -134,7 +137,8 @@ std::size_t warning_count(const Snapshot& snapshot, const std::string& variant) 
     std::size_t count = 0;
     for (const LogEntry& entry : snapshot.log)
         if (entry.result && is_part_of(entry.edit.place, variant))
-            count += entry.result->warnings.size();
+            count += static_cast<std::size_t>(std::ranges::count_if(
+                entry.result->warnings, [](const Diagnostic& one) { return !is_note(one); }));
     return count;
 }
 

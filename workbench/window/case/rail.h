@@ -19,7 +19,8 @@ struct RailEdit {
     std::string reason;  ///< of a stale edit
     std::string change;  ///< "volume -2.1 %, moved up to 0.31 mm"
     std::vector<std::string> warnings;
-    Positions places;  ///< where it was made; empty: on the whole surface
+    std::vector<std::string> notes;  ///< what is_note()
+    Positions places;                ///< where it was made; empty: on the whole surface
 };
 
 /// A step with the edits of the current state.

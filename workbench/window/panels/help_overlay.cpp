@@ -2,12 +2,15 @@
 
 #include <imgui.h>
 
+#include "workbench/window/case/handbook.h"
+#include "workbench/window/case/message.h"
 #include "workbench/window/core/shown.h"
 #include "workbench/window/keys/key_table.h"
 #include "workbench/window/style/icons.h"
 #include "workbench/window/widgets/controls.h"
 #include "workbench/window/widgets/panel_frame.h"
 #include "workbench/window/widgets/ui.h"
+#include "workbench/window/workplace/workplace.h"
 
 namespace vesselbench {
 
@@ -39,6 +42,15 @@ constexpr const char* kFirstSteps =
     "4. Click an edit in the steps to change it; click a state of the history to go there.\n"
     "5. Export writes the model. There is nothing to save: each edit is in the project file.";
 
+/// Leads to all pages, in the browser.
+void draw_handbook_button(PanelContext& c) {
+    static const std::filesystem::path page = handbook_page();
+    if (page.empty() || !button(c.ui, "help.docs", "Open the handbook in the browser")) return;
+    if (!show_handbook(page, ""))
+        c.place.document.tell(make_message(
+            MessageKind::Remark, "No browser is found; the handbook is " + page.string()));
+}
+
 }  // namespace
 
 void draw_help_overlay(PanelContext& c, const ScreenRect& window) {
@@ -51,6 +63,8 @@ void draw_help_overlay(PanelContext& c, const ScreenRect& window) {
     space(ui, 1);
     ImGui::BeginChild("help text");
     wrapped(ui, kFirstSteps, ui.theme.text, false);
+    space(ui, 1);
+    draw_handbook_button(c);
     space(ui, 3);
     const float half = ImGui::GetContentRegionAvail().x / 2;
     ImGui::BeginGroup();

@@ -102,6 +102,7 @@ std::string help_of(const RailEdit& edit) {
     if (!edit.change.empty()) help += "\n" + edit.change;
     if (!edit.reason.empty()) help += "\nno longer applies: " + edit.reason;
     for (const std::string& warning : edit.warnings) help += "\nwarning: " + warning;
+    for (const std::string& note : edit.notes) help += "\nnote: " + note;
     return help + "\nClick to change its parameters.";
 }
 
