@@ -107,7 +107,8 @@ SCENARIO("The manual page explains every command and lists every operation", "[w
 
 SCENARIO("docs shows the handbook of the installation", "[workbench][shell]") {
     namespace fs = std::filesystem;
-    const fs::path folder = fs::path(temporary_folder()) / "a place";
+    const std::string above = temporary_folder();
+    const fs::path folder = fs::path(above) / "a place";
     const fs::path site = folder / "share/doc/vesselbench/html", bin = folder / "bin";
     fs::create_directories(bin);
     fs::copy_file(test::program_path(), bin / "vesselbench");
@@ -126,7 +127,7 @@ SCENARIO("docs shows the handbook of the installation", "[workbench][shell]") {
     fs::create_directories(site);
     write_text((site / "index.html").string(), "pages");
     const std::string address =
-        "file://" + temporary_folder() + "/a%20place/share/doc/vesselbench/html/index.html";
+        "file://" + above + "/a%20place/share/doc/vesselbench/html/index.html";
     WHEN("there is no display") {
         const ProgramRun run = docs({"bent", "inlet?"}, "");
         CHECK(run.exit_code == 0);

@@ -4,7 +4,6 @@
 #include <sstream>
 
 #include "workbench/commands/command_parser.h"
-#include "workbench/commands/shell/completion_words.h"
 #include "workbench/export/flow_parameters.h"
 #include "workbench/operations/table.h"
 #include "workbench/prepare/recipe_document.h"
@@ -97,6 +96,21 @@ std::vector<CommandRow> command_rows(const CLI::App& app) {
     for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
         if (is_listed(*command)) rows.push_back(command_row(*command, app.get_footer()));
     return rows;
+}
+
+std::vector<std::string> parameter_words(const Operation& operation) {
+    std::vector<std::string> words;
+    for (const Parameter& parameter : operation.parameters)
+        if (parameter.use != Use::Decision) words.push_back(parameter.name + "=");
+    return words;
+}
+
+std::vector<std::string> setting_words(std::span<const Operation> operations) {
+    std::vector<std::string> words;
+    for (const Operation& operation : operations)
+        for (const std::string& parameter : parameter_words(operation))
+            words.push_back(operation.name + "." + parameter);
+    return words;
 }
 
 }  // namespace vesselbench

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
+
+#include "workbench/case/operation.h"
 
 namespace vesselbench {
 
@@ -29,5 +32,11 @@ struct CommandRow {
 
 /// The commands that the help lists, in its order.
 [[nodiscard]] std::vector<CommandRow> command_rows(const CLI::App& app);
+
+/// "name=" of each parameter that users type.
+[[nodiscard]] std::vector<std::string> parameter_words(const Operation& operation);
+
+/// "smooth.filter=" of each parameter that users type, as --set takes them.
+[[nodiscard]] std::vector<std::string> setting_words(std::span<const Operation> operations);
 
 }  // namespace vesselbench

@@ -44,26 +44,11 @@ std::vector<std::string> operation_words(std::span<const Operation> operations) 
     return words;
 }
 
-std::vector<std::string> parameter_words(const Operation& operation) {
-    std::vector<std::string> words;
-    for (const Parameter& parameter : operation.parameters)
-        if (parameter.use != Use::Decision) words.push_back(parameter.name + "=");
-    return words;
-}
-
 std::vector<std::string> argument_words(const Operation& operation) {
     std::vector<std::string> words;
     for (const Parameter& parameter : operation.parameters)
         for (const std::string& choice : parameter.choices)
             words.push_back(parameter.name + "=" + choice);
-    return words;
-}
-
-std::vector<std::string> setting_words(std::span<const Operation> operations) {
-    std::vector<std::string> words;
-    for (const Operation& operation : operations)
-        for (const std::string& parameter : parameter_words(operation))
-            words.push_back(operation.name + "." + parameter);
     return words;
 }
 

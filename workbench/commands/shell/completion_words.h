@@ -21,13 +21,7 @@ namespace vesselbench {
 [[nodiscard]] std::vector<std::string> option_words(const CommandRow& command);
 [[nodiscard]] std::vector<std::string> operation_words(std::span<const Operation> operations);
 
-/// "name=" of each parameter that users type.
-[[nodiscard]] std::vector<std::string> parameter_words(const Operation& operation);
-
 /// "filter=laplace": the arguments whose values are known.
 [[nodiscard]] std::vector<std::string> argument_words(const Operation& operation);
-
-/// "smooth.filter=" of each parameter that users type, as --set takes them.
-[[nodiscard]] std::vector<std::string> setting_words(std::span<const Operation> operations);
 
 }  // namespace vesselbench
