@@ -25,10 +25,6 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-ProgramRun run(const std::vector<std::string>& arguments) {
-    return run_program(vesselbench::test::program_path(), arguments);
-}
-
 std::vector<std::string> commands() {
     std::vector<std::string> names;
     const std::string help = run({"--help"}).out;

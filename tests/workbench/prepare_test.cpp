@@ -46,10 +46,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-ProgramRun run(const std::vector<std::string>& arguments, const std::string& limits = "") {
-    return run_program(test::program_path(), arguments, limits);
-}
-
 std::string text_of(const fs::path& file) {
     std::ifstream stream(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), {}};
