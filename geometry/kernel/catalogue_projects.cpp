@@ -31,20 +31,22 @@ constexpr CatalogueText kTexts[] = {
      "the surface changes near {place}, outside the zone that this edit states: that part of the "
      "model was not to be touched[; give another {fix}][, or use {fix2}]"},
     {"edit-changes-triangles",
-     "the edit states that it moves vertices alone, but {before#triangle} became {after}[; give "
-     "another {fix}][, or use {fix2}]"},
+     "the edit states that it moves vertices alone, but {before#triangle} became {after}[, near "
+     "{place}][; give another {fix}][, or use {fix2}]"},
     {"edit-changes-parts",
-     "the model gets {after#part} instead of {before}: more change than the edit states[; give "
-     "another {fix}][, or use {fix2}]"},
+     "the model gets {after#part} instead of {before}[, near {place}]: more change than the edit "
+     "states[; give another {fix}][, or use {fix2}]"},
     {"edit-changes-rims",
-     "the model gets {after#open end or hole|open ends and holes} instead of {before}: more change "
-     "than the edit states[; give another {fix}][, or use {fix2}]"},
+     "the model gets {after#open end or hole|open ends and holes} instead of {before}[, near "
+     "{place}]: more change than the edit states[; give another {fix}][, or use {fix2}]"},
     {"edit-changes-handles",
-     "the model gets {after#handle} instead of {before}: more change than the edit states[; give "
-     "another {fix}][, or use {fix2}]"},
+     "the model gets {after#handle} instead of {before}[, near {place}]: more change than the edit "
+     "states[; give another {fix}][, or use {fix2}]"},
     {"edit-changes-volume",
-     "the volume goes from {before_mm3:%.4g} to {after_mm3:%.4g} mm^3, which is more than the "
-     "{stated_mm3:%.3g} mm^3 that the edit states[; give another {fix}][, or use {fix2}]"},
+     "the volume goes from {before_mm3:%.4g} to {after_mm3:%.4g} mm^3[, most of it near {place}], "
+     "which is more than the {stated_mm3:%.3g} mm^3 that the edit states[; give another {fix}][, "
+     "or "
+     "use {fix2}]"},
     {"edit-loses-wall",
      "wall near {place} is lost, {distance_mm:%.2g} mm from what is left; the edit states "
      "{stated_mm:%.2g} mm at most: a sac or a vessel's end would be gone with it[; give another "
