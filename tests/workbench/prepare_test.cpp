@@ -980,6 +980,7 @@ SCENARIO("A full disk leaves nothing half-written", "[workbench][bad-input]") {
         run({"prepare", tube() + "/exact.vtp", "--for", "rp", "--out", out}, "ulimit -f 700;");
     INFO(result.err);
     CHECK(result.exit_code == 3);
+    CHECK_THAT(result.err, Contains("ulimit -f"));
     for (const std::string& name : names_in(out)) CHECK_THAT(name, Contains("project.vbench"));
 }
 
