@@ -6,8 +6,8 @@
 #include <epoxy/gl.h>
 
 #include "geometry/kernel/errors.h"
+#include "gpu/attach_shader.h"
 #include "gpu/device_store.h"
-#include "gpu/shader_source.h"
 
 namespace vesselbench {
 
@@ -86,38 +86,25 @@ Buffer allocated(const Device& device, std::size_t bytes, const void* content,
     return buffer;
 }
 
-std::string info_log(unsigned id, bool linked) {
+std::string link_log(unsigned program) {
     char log[8192] = "";
-    if (linked)
-        glGetProgramInfoLog(id, sizeof log, nullptr, log);
-    else
-        glGetShaderInfoLog(id, sizeof log, nullptr, log);
+    glGetProgramInfoLog(program, sizeof log, nullptr, log);
     return log;
 }
 
 }  // namespace
 
 Program make_compute_program(const Device& device, const std::string& name, bool wide) {
-    ShaderSource source = assemble_shader(*device.shaders, name + ".comp");
-    if (wide) source.text.insert(source.text.find('\n') + 1, "#define WIDE\n#line 2 0\n");
     ++device.counts->compiles;
     Program program(glCreateProgram());
-    const unsigned shader = glCreateShader(GL_COMPUTE_SHADER);
-    const char* text = source.text.c_str();
-    glShaderSource(shader, 1, &text, nullptr);
-    glCompileShader(shader);
-    glAttachShader(program.id(), shader);
-    glDeleteShader(shader);  // lives on while attached
+    const ShaderSource source = attach_shader(program, GL_COMPUTE_SHADER, *device.shaders,
+                                              name + ".comp", wide ? "#define WIDE\n" : "");
     int ok = 0;
-    glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
-    if (!ok)
-        throw GpuUnavailable("the shader " + name + ".comp does not compile:\n" +
-                             explained_log(*device.shaders, source, info_log(shader, false)));
     glLinkProgram(program.id());
     glGetProgramiv(program.id(), GL_LINK_STATUS, &ok);
     if (!ok)
         throw GpuUnavailable("the shader " + name + ".comp does not link:\n" +
-                             explained_log(*device.shaders, source, info_log(program.id(), true)));
+                             explained_log(*device.shaders, source, link_log(program.id())));
     return program;
 }
 

@@ -3,38 +3,11 @@
 #include <epoxy/gl.h>
 
 #include "geometry/kernel/errors.h"
+#include "gpu/attach_shader.h"
 #include "gpu/drawing_errors.h"
-#include "gpu/shader_source.h"
 #include "gpu/shader_texts.h"
 
 namespace vesselbench {
-
-namespace {
-
-std::string compile_log(unsigned shader) {
-    char log[4096] = "";
-    glGetShaderInfoLog(shader, sizeof log, nullptr, log);
-    return log;
-}
-
-void attach(const Program& program, unsigned kind, const std::string& file,
-            const std::string& defines) {
-    ShaderSource source = assemble_shader(shader_texts(), file);
-    if (!defines.empty()) source.text.insert(source.text.find('\n') + 1, defines + "#line 2 0\n");
-    const unsigned shader = glCreateShader(kind);
-    const char* text = source.text.c_str();
-    glShaderSource(shader, 1, &text, nullptr);
-    glCompileShader(shader);
-    glAttachShader(program.id(), shader);
-    glDeleteShader(shader);  // lives on while attached
-    int ok = 0;
-    glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
-    if (!ok)
-        throw GpuUnavailable("the shader " + file + " does not compile:\n" +
-                             explained_log(shader_texts(), source, compile_log(shader)));
-}
-
-}  // namespace
 
 void delete_buffer(unsigned id) {
     glDeleteBuffers(1, &id);
@@ -95,8 +68,8 @@ Buffer make_buffer(std::span<const std::byte> bytes, const std::string& label) {
 Program make_program(const std::string& vertex, const std::string& fragment,
                      const std::string& defines) {
     Program program(glCreateProgram());
-    attach(program, GL_VERTEX_SHADER, vertex + ".vert", defines);
-    attach(program, GL_FRAGMENT_SHADER, fragment + ".frag", defines);
+    attach_shader(program, GL_VERTEX_SHADER, shader_texts(), vertex + ".vert", defines);
+    attach_shader(program, GL_FRAGMENT_SHADER, shader_texts(), fragment + ".frag", defines);
     glLinkProgram(program.id());
     int ok = 0;
     glGetProgramiv(program.id(), GL_LINK_STATUS, &ok);

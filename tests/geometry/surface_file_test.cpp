@@ -1,12 +1,10 @@
 #include "geometry/formats/surface_file.h"
 
-#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 
 #include <catch2/catch.hpp>
-#include <sys/resource.h>
 #include <vtkNew.h>
 #include <vtkPolyData.h>
 #include <vtkXMLPolyDataReader.h>
@@ -16,6 +14,7 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
 #include "tests/support/shapes.h"
+#include "tests/support/small_files.h"
 
 using namespace vesselbench;
 using namespace vesselbench::test;
@@ -81,14 +80,10 @@ SCENARIO("A full disk is reported, and nothing is left", "[geometry][io]") {
     const std::string path = folder + "/a.stl";
     write_surface(cube(1.0), path);
     const std::string before = bytes_of(path);
-    rlimit old{};
-    ::getrlimit(RLIMIT_FSIZE, &old);
-    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
-    const rlimit small{1000, old.rlim_max};
-    ::setrlimit(RLIMIT_FSIZE, &small);
-    CHECK_THROWS_AS(write_surface(icosphere(1.0, 4), path), IoError);
-    ::setrlimit(RLIMIT_FSIZE, &old);
-    std::signal(SIGXFSZ, handler);
+    {
+        const SmallFiles small(1000);
+        CHECK_THROWS_AS(write_surface(icosphere(1.0, 4), path), IoError);
+    }
     CHECK(bytes_of(path) == before);
     CHECK(std::distance(std::filesystem::directory_iterator(folder), {}) == 1);
 }

@@ -4,12 +4,12 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <random>
 
 #include <catch2/catch.hpp>
 #include <fcntl.h>
 #include <sqlite3.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -17,6 +17,7 @@
 #include "geometry/kernel/pending_files.h"
 #include "tests/session/small_operations.h"
 #include "tests/support/shapes.h"
+#include "tests/support/small_files.h"
 #include "workbench/project/record_check.h"
 #include "workbench/session/session.h"
 
@@ -343,15 +344,10 @@ SCENARIO("A full disk leaves the project as it was", "[session][project]") {
     const std::string file = new_project(4);
     Session session = Session::open(file, options());
     session.apply("bump", small_bump());
-    rlimit old{};
-    getrlimit(RLIMIT_FSIZE, &old);
-    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
-    const rlimit full{60000, old.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &full);
+    auto full = std::make_optional<test::SmallFiles>(60000);
     const std::string text = error_of<IoError>([&] { session.apply("bump", small_bump(100.0)); });
     const std::string copy_text = error_of<IoError>([&] { session.save_as(file + ".copy"); });
-    setrlimit(RLIMIT_FSIZE, &old);
-    std::signal(SIGXFSZ, handler);
+    full.reset();
     CHECK(text.find("case.vbench") != std::string::npos);
     CHECK(copy_text.find("vbench") != std::string::npos);
     CHECK(std::distance(fs::directory_iterator(fs::path(file).parent_path()), {}) <= 4);
@@ -378,14 +374,9 @@ SCENARIO("The file alone is the project once its log is folded in", "[session][p
         CHECK(edits_in_copy() == 2);
     }
     WHEN("the file cannot grow") {
-        rlimit old{};
-        getrlimit(RLIMIT_FSIZE, &old);
-        const auto handler = std::signal(SIGXFSZ, SIG_IGN);
-        const rlimit full{fs::file_size(file), old.rlim_max};
-        setrlimit(RLIMIT_FSIZE, &full);
+        auto full = std::make_optional<test::SmallFiles>(fs::file_size(file));
         const std::string text = error_of<IoError>([&] { session.fold_log(); });
-        setrlimit(RLIMIT_FSIZE, &old);
-        std::signal(SIGXFSZ, handler);
+        full.reset();
         CHECK(text.find("the last edits are in case.vbench-wal only: ") == 0);
         CHECK(session.log().size() == 2);
         session.fold_log();

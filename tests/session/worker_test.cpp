@@ -12,6 +12,7 @@
 #include "geometry/kernel/errors.h"
 #include "tests/session/small_operations.h"
 #include "tests/support/shapes.h"
+#include "tests/support/small_files.h"
 #include "workbench/worker/run_operation.h"
 
 using namespace vesselbench;
@@ -56,6 +57,19 @@ SCENARIO("An isolated operation gives the same result as in process", "[session]
         CHECK(far.scene.surface->topology == scene.surface->topology);
         CHECK(far.scene.surface->positions != scene.surface->positions);
     }
+}
+
+SCENARIO("A result larger than files may be is no fault of the file that was read",
+         "[session][worker]") {
+    const std::string file = test::temporary_folder() + "/radius.txt";
+    std::ofstream(file) << "10";
+    WorkerOptions worker = test::test_worker();
+    worker.every_operation = true;
+    const auto load = [&] { static_cast<void>(run("load-sphere", {}, {{"file", file}}, worker)); };
+    CHECK_NOTHROW(load());
+    const test::SmallFiles small(2000);
+    CHECK_THROWS_AS(load(), IoError);
+    CHECK_THAT(text_of(load), Catch::Contains("ulimit -f") && !Catch::Contains("damaged"));
 }
 
 SCENARIO("Where all operations run in workers, some stay", "[session][worker]") {

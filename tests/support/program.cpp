@@ -8,6 +8,7 @@
 
 #include <sys/wait.h>
 
+#include "tests/support/paths.h"
 #include "tests/support/shapes.h"
 
 namespace vesselbench::test {
@@ -36,6 +37,10 @@ ProgramRun run_program(const std::string& program, const std::vector<std::string
     const int status = std::system(command.c_str());
     const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     return {code, text_of(folder + "/out"), text_of(folder + "/err")};
+}
+
+ProgramRun run(const std::vector<std::string>& arguments, const std::string& limits) {
+    return run_program(program_path(), arguments, limits);
 }
 
 std::vector<std::string> names_in(const std::string& folder) {

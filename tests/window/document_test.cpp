@@ -16,6 +16,7 @@
 #include "geometry/formats/surface_file.h"
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
+#include "tests/window/case_folder.h"
 #include "tests/window/window_support.h"
 #include "workbench/session/task_thread.h"
 #include "workbench/window/case/history_tree.h"
@@ -52,17 +53,6 @@ std::vector<std::string> operations_in(const Document& document) {
     std::vector<std::string> names;
     for (const LogEntry& entry : document.snapshot()->log) names.push_back(entry.edit.operation);
     return names;
-}
-
-/// A tube with this recipe for every purpose.
-fs::path case_folder(const std::string& recipe) {
-    const fs::path folder = fs::path(temporary_folder()) / "tube";
-    fs::create_directory(folder);
-    fs::copy_file(tube_file(), folder / "tube.stl");
-    write_text(
-        folder / "case.json",
-        R"({"name": "tube", "surface": "tube.stl", "units": "mm", "recipe": )" + recipe + "}");
-    return folder;
 }
 
 bool told(const Document& document, const std::string& text) {

@@ -6,8 +6,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "tests/support/program.h"
 #include "tests/support/shapes.h"
+#include "tests/window/case_folder.h"
 #include "tests/window/window_support.h"
 #include "workbench/operations/table.h"
 #include "workbench/window/case/history_tree.h"
@@ -44,18 +44,6 @@ void click(OffscreenShell& shell, const std::string& item) {
     INFO(item);
     REQUIRE(shell.click_item(item));
     wait(shell);
-}
-
-/// A tube whose recipe makes edits of two purposes.
-fs::path case_folder() {
-    const fs::path folder = fs::path(temporary_folder()) / "tube";
-    fs::create_directory(folder);
-    fs::copy_file(tube_file(), folder / "tube.stl");
-    write_text(folder / "case.json", R"({"name": "tube", "surface": "tube.stl", "units": "mm",
-        "recipe": [{"operation": "repair"},
-                   {"operation": "smooth", "arguments": {"iterations": 3}},
-                   {"operation": "subdivide", "when": "cfd"}]})");
-    return folder;
 }
 
 const ResultCard* card_of(OffscreenShell& shell) {

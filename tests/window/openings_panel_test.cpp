@@ -204,6 +204,25 @@ SCENARIO("Ends that the odds would decide otherwise stay what an edit made of th
     CHECK(former_wishes(rows, now, edit + 1).empty());
 }
 
+SCENARIO("The form of an edit has the ends that it named, whatever their numbers are on its input",
+         "[window][openings]") {
+    Openings window(aneurysm());
+    window.place.fill_form({{"accept_doubts", "true"}, {"close_ends", "4"}});
+    window.settle();
+    const Vec3 removed = window.row(2).place, closed = window.row(4).place;
+    static_cast<void>(window.apply());
+    const EditId edit = window.place.document.snapshot()->log.back().edit.edit.id;
+    window.place.document.apply("remove-branch", {{"tip", removed}}, Step::Branches);
+    REQUIRE(window.until([&] { return !window.place.document.busy(); }));
+    window.place.choose_edit(edit);
+    window.settle();
+    REQUIRE(window.ends().rows().size() == 5);
+    CHECK(window.text("close_ends").empty());
+    CHECK_FALSE(window.text("closed").empty());
+    for (const EndRow& row : window.ends().rows())
+        if ((row.place - closed).norm() < 1.0) CHECK(row.wish == EndWish::Closed);
+}
+
 SCENARIO("A closed end that is toggled is opened", "[window][openings]") {
     Openings window(aneurysm());
     const EndRow sac = window.row(1);

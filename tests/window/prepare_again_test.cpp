@@ -9,8 +9,8 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "tests/support/program.h"
 #include "tests/support/shapes.h"
+#include "tests/window/case_folder.h"
 #include "tests/window/window_support.h"
 #include "workbench/case/json_text.h"
 #include "workbench/prepare/edits_recipe.h"
@@ -27,19 +27,6 @@ namespace fs = std::filesystem;
 namespace {
 
 using Names = std::vector<std::string>;
-
-/// A tube with a recipe that is quickly made.
-fs::path case_folder() {
-    const fs::path folder = fs::path(temporary_folder()) / "tube";
-    fs::create_directory(folder);
-    fs::copy_file(tube_file(), folder / "tube.stl");
-    write_text(folder / "case.json", R"({"name": "tube", "surface": "tube.stl", "units": "mm",
-        "recipe": [{"operation": "repair"},
-                   {"operation": "smooth", "arguments": {"iterations": 3}},
-                   {"operation": "subdivide", "when": "cfd"},
-                   {"operation": "decimate", "when": "rp"}]})");
-    return folder;
-}
 
 void wait_for_rest(Document& document) {
     for (const auto end = std::chrono::steady_clock::now() + 60s;

@@ -197,8 +197,17 @@ SCENARIO("One batch at a time runs in a folder", "[workbench][batch]") {
     const ProgramRun second = cohort.run("out");
     CHECK(second.exit_code == 3);
     CHECK_THAT(second.err, Contains("no batch can run in 'out': another vesselbench"));
-    running.signal(SIGCONT);
-    running.wait();
+    THEN("the first one goes on") {
+        running.signal(SIGCONT);
+        running.wait();
+    }
+    THEN("the lock of a killed one holds nothing, and the next one removes it") {
+        running.signal(SIGKILL);
+        running.wait();
+        REQUIRE(fs::exists(cohort.folder + "/out/batch-lock"));
+        CHECK(cohort.run("out").exit_code == 1);  // a case of the cohort fails
+        CHECK(leftovers(cohort.folder + "/out").empty());
+    }
 }
 
 SCENARIO("A damaged file of a case, or a link to itself, ends no batch",

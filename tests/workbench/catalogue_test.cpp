@@ -45,9 +45,10 @@ std::string all_sources() {
     for (const char* folder : {"geometry", "smoothing", "meshing", "workbench"})
         for (const auto& entry :
              fs::recursive_directory_iterator(fs::path(test::source_folder()) / folder)) {
-            if (entry.path().extension() != ".cpp" || entry.path().filename() == "catalogue.cpp")
+            const fs::path& file = entry.path();
+            if (file.extension() != ".cpp" || file.filename().string().starts_with("catalogue"))
                 continue;
-            std::ifstream stream(entry.path());
+            std::ifstream stream(file);
             all.append(std::istreambuf_iterator<char>(stream), {});
         }
     return all;

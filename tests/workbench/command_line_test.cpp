@@ -25,10 +25,6 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-ProgramRun run(const std::vector<std::string>& arguments) {
-    return run_program(vesselbench::test::program_path(), arguments);
-}
-
 std::vector<std::string> commands() {
     std::vector<std::string> names;
     const std::string help = run({"--help"}).out;
@@ -268,6 +264,27 @@ SCENARIO("measure prints every measure of a known shape", "[workbench][command-l
     const std::string people = run({"measure", folder + "/grown.vtp", ball}).out;
     CHECK_THAT(people, Contains("reference local_error max") &&
                            Contains("the file was read in mm (--units cm or m reads it"));
+}
+
+SCENARIO("centerlines refuses what a damaged file has instead of a lumen in one line",
+         "[workbench][command-line]") {
+    const std::string folder = temporary_folder(), file = folder + "/tube.vtp";
+    const vesselbench::Surface tube = closed_tube(2.0, 20.0, 24, 40);
+    const vesselbench::Vec3 damaged = tube.points()[100];
+    for (const double place : {1e6, 1e20, 1e38}) {
+        vesselbench::write_surface(mapped(tube,
+                                          [&](const vesselbench::Vec3& p) {
+                                              return p == damaged ? vesselbench::Vec3(place, 0, 0)
+                                                                  : p;
+                                          }),
+                                   file);
+        const ProgramRun result = run({"centerlines", file, folder + "/lines.vtp"});
+        INFO(place << ": " << result.err);
+        CHECK(result.exit_code == 3);
+        CHECK(std::ranges::count(result.err, '\n') == 1);
+        CHECK_THAT(result.err, Contains("encloses no lumen"));
+        CHECK(names_in(folder) == std::vector<std::string>{"tube.vtp"});
+    }
 }
 
 SCENARIO("centerlines says the unit in which it read the file", "[workbench][command-line]") {

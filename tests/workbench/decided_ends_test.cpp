@@ -15,12 +15,14 @@
 #include "geometry/phantoms/exact_surface.h"
 #include "geometry/phantoms/field.h"
 #include "tests/support/paths.h"
+#include "tests/support/program.h"
 #include "tests/support/shapes.h"
 #include "workbench/operations/clip_opening/parameters.h"
 #include "workbench/operations/table.h"
 #include "workbench/phantoms/phantom_json.h"
 #include "workbench/prepare/apply_recipe.h"
 #include "workbench/prepare/before_cuts.h"
+#include "workbench/prepare/decided_entry.h"
 #include "workbench/prepare/input.h"
 #include "workbench/prepare/prepared_purposes.h"
 
@@ -94,6 +96,29 @@ std::optional<PatchKind> opening_at(Session& session, const std::string& variant
         if (patch.kind != PatchKind::Wall && (patch.centroid - place).norm() < 4.0)
             return patch.kind;
     return std::nullopt;
+}
+
+Value list(const Vec3& place) {
+    return std::vector<double>{place.x(), place.y(), place.z()};
+}
+
+/// Changes the edit that opens the ends, as a user does who names some arguments.
+void change_ends(Session& session, const Arguments& more) {
+    const EditId edit = last_of(session, "cfd").edit.edit.id;
+    const DecidedEntry changed =
+        decided_change(edit, given_arguments(find_operation("clip-opening"), more), session, {});
+    session.change_edit(edit, changed.entry.given);
+}
+
+/// The number of the end nearest to a place, in the list of ends.
+double number_at(Session& session, const Vec3& place) {
+    const LogEntry edit = last_of(session, "cfd");
+    const auto ends = nlohmann::json::parse(edit.result->report)["ends"];
+    const auto distance = [&](const nlohmann::json& end) {
+        const auto at = end["place_mm"].get<std::vector<double>>();
+        return (Vec3(at[0], at[1], at[2]) - place).norm();
+    };
+    return std::ranges::min_element(ends, {}, distance)->at("number").get<double>();
 }
 
 }  // namespace
@@ -195,6 +220,94 @@ SCENARIO("No end changes its side because another branch was removed", "[workben
                   (end.role != EndRole::Closed));
         }
     }
+}
+
+SCENARIO("A change of one end leaves all others as they were decided", "[workbench][ends]") {
+    GIVEN("ends of which the program closed the sac, before a branch was removed") {
+        Session session = bundled_vessel();
+        open_ends(session, "cfd");
+        session.apply("remove-branch", {{"tip", kOutletB}});
+        WHEN("another end becomes the inlet") {
+            change_ends(session, {{"inlet", list(kOutletA)}});
+            CHECK(opening_at(session, "cfd", kOutletA) == PatchKind::Inlet);
+            CHECK(opening_at(session, "cfd", kInlet) == PatchKind::Outlet);
+            CHECK_FALSE(opening_at(session, "cfd", kSac));
+        }
+        WHEN("the sac itself is named") {
+            change_ends(session, {{"open", list(kSac)}});
+            CHECK(opening_at(session, "cfd", kSac));
+            CHECK(opening_at(session, "cfd", kInlet) == PatchKind::Inlet);
+        }
+    }
+    GIVEN("ends of which a user closed one and chose the inlet") {
+        Session session = bundled_vessel();
+        open_ends(session, "cfd",
+                  {{"closed", list(kOutletB)}, {"inlet", list(kOutletA)}, {"open", list(kSac)}});
+        REQUIRE_FALSE(opening_at(session, "cfd", kOutletB));
+        REQUIRE(opening_at(session, "cfd", kOutletA) == PatchKind::Inlet);
+        WHEN("one more end is closed") {
+            change_ends(session, {{"closed", list(kInlet)}});
+            CHECK_FALSE(opening_at(session, "cfd", kInlet));
+            CHECK_FALSE(opening_at(session, "cfd", kOutletB));
+            CHECK(opening_at(session, "cfd", kOutletA) == PatchKind::Inlet);
+            CHECK(opening_at(session, "cfd", kSac) == PatchKind::Outlet);
+        }
+        WHEN("the inlet is another one") {
+            change_ends(session, {{"inlet", list(kInlet)}});
+            CHECK(opening_at(session, "cfd", kInlet) == PatchKind::Inlet);
+            CHECK(opening_at(session, "cfd", kOutletA) == PatchKind::Outlet);
+            CHECK_FALSE(opening_at(session, "cfd", kOutletB));
+            CHECK(opening_at(session, "cfd", kSac) == PatchKind::Outlet);
+        }
+        WHEN("the inlet is named by its number") {
+            const double number = number_at(session, kInlet);
+            change_ends(session, {{"inlet_ends", Value(std::vector<double>{number})}});
+            CHECK(opening_at(session, "cfd", kInlet) == PatchKind::Inlet);
+            CHECK(opening_at(session, "cfd", kOutletA) == PatchKind::Outlet);
+        }
+        WHEN("the closed end becomes the inlet") {
+            change_ends(session, {{"inlet", list(kOutletB)}});
+            CHECK(opening_at(session, "cfd", kOutletB) == PatchKind::Inlet);
+            CHECK(opening_at(session, "cfd", kOutletA) == PatchKind::Outlet);
+        }
+        WHEN("the blood flows another way") {
+            change_ends(session, {{"vessel", std::string("vein")}, {"inlet", list(kInlet)}});
+            CHECK_FALSE(opening_at(session, "cfd", kOutletB));
+        }
+        WHEN("nothing is said of ends") {
+            change_ends(session, {{"strict", true}});
+            CHECK(opening_at(session, "cfd", kOutletA) == PatchKind::Inlet);
+            CHECK_FALSE(opening_at(session, "cfd", kOutletB));
+        }
+    }
+}
+
+SCENARIO("A changed edit keeps the ends that it named by numbers of an earlier input",
+         "[workbench][ends]") {
+    Session session = bundled_vessel();
+    open_ends(session, "cfd");
+    const double number = number_at(session, kOutletB);
+    session.undo();
+    open_ends(session, "cfd", {{"close_ends", Value(std::vector<double>{number})}});
+    REQUIRE_FALSE(opening_at(session, "cfd", kOutletB));
+    session.apply("remove-branch", {{"tip", kOutletA}});
+    change_ends(session, {{"check", std::string("none")}});
+    CHECK_FALSE(opening_at(session, "cfd", kOutletB));
+    CHECK(opening_at(session, "cfd", kInlet) == PatchKind::Inlet);
+}
+
+SCENARIO("`change` says which ends stay what they were decided to be", "[workbench][ends]") {
+    Session session = bundled_vessel();
+    open_ends(session, "cfd", {{"closed", list(kOutletB)}});
+    const std::string project = temporary_folder() + "/case.vbench";
+    session.save_as(project);
+    const auto id = std::to_string(last_of(session, "cfd").edit.edit.id);
+    const ProgramRun run =
+        run_program(program_path(), {"change", project, id, "inlet=5.6,7.6,53", "--json"});
+    CHECK(run.exit_code == 0);
+    CHECK_THAT(run.err, Catch::Contains("1 end as decided in the variant cfd: closed at"));
+    const auto edit = nlohmann::json::parse(run.out);
+    CHECK(edit["given"]["closed"].size() == 3);
 }
 
 SCENARIO("Numbers of ends name the same ends beside what was decided", "[workbench][ends]") {

@@ -12,7 +12,6 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/whole_file.h"
 #include "tests/review/reviewed_session.h"
-#include "tests/support/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
 #include "tests/support/signing.h"
@@ -31,10 +30,6 @@ using namespace vesselbench;
 using namespace vesselbench::test;
 
 namespace {
-
-ProgramRun run(const std::vector<std::string>& arguments) {
-    return run_program(program_path(), arguments);
-}
 
 Session opened(const std::string& project) {
     return Session::open(project, {.find = find_operation});

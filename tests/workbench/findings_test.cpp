@@ -16,7 +16,6 @@
 #include "geometry/vessel/centerlines/centerlines.h"
 #include "geometry/vessel/openings/openings.h"
 #include "tests/support/beginning.h"
-#include "tests/support/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
 #include "workbench/findings/detectors.h"
@@ -104,10 +103,6 @@ Surface narrowed_tube(double depth) {
         const double width = 1.0 - depth * (1.0 + std::cos(std::numbers::pi * x));
         return Vec3(width * p.x(), width * p.y(), p.z());
     });
-}
-
-ProgramRun run(const std::vector<std::string>& arguments) {
-    return run_program(program_path(), arguments);
 }
 
 /// A project with that tube.

@@ -91,10 +91,6 @@ std::int64_t format_of(const std::string& project) {
     return Database(project, OpenMode::Read).number("PRAGMA user_version");
 }
 
-ProgramRun run(const Words& words) {
-    return run_program(program_path(), words);
-}
-
 void check_done(const Words& words) {
     const ProgramRun done = run(words);
     INFO(words[0] << ": " << done.out << done.err);

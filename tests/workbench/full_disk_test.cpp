@@ -48,10 +48,6 @@ private:
     bool mounted_;
 };
 
-ProgramRun run(const std::vector<std::string>& arguments) {
-    return run_program(program_path(), arguments);
-}
-
 }  // namespace
 
 SCENARIO("A project on a full disk can be read, and its model saved elsewhere",

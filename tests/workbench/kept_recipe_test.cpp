@@ -8,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/formats/surface_file.h"
-#include "tests/support/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
 #include "workbench/operations/table.h"
@@ -22,10 +21,6 @@ using Json = nlohmann::ordered_json;
 using Names = std::vector<std::string>;
 
 namespace {
-
-ProgramRun run(const std::vector<std::string>& arguments) {
-    return run_program(test::program_path(), arguments);
-}
 
 Names operations_in(const std::string& project) {
     Names names;

@@ -26,10 +26,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-ProgramRun run(const std::vector<std::string>& arguments) {
-    return run_program(program_path(), arguments);
-}
-
 const std::vector<Segment> kSegments = {{.label = 1, .name = "artery"},
                                         {.label = 2, .name = "bone, left"},
                                         {.label = 5, .name = "Artery wall"}};

@@ -37,10 +37,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-ProgramRun run(const std::vector<std::string>& arguments) {
-    return run_program(test::program_path(), arguments);
-}
-
 /// A folder with a tube, a short recipe for it, and the folder `out` of its results.
 struct Place {
     std::string folder;

@@ -12,7 +12,6 @@
 #include "geometry/kernel/surface_distance.h"
 #include "geometry/kernel/whole_file.h"
 #include "tests/support/beginning.h"
-#include "tests/support/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
 
@@ -23,10 +22,6 @@ using Json = nlohmann::ordered_json;
 using Names = std::vector<std::string>;
 
 namespace {
-
-ProgramRun run(const std::vector<std::string>& arguments) {
-    return run_program(test::program_path(), arguments);
-}
 
 /// A built-in phantom as a case folder.
 std::string phantom(const std::string& name) {

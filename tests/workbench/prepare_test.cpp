@@ -46,10 +46,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-ProgramRun run(const std::vector<std::string>& arguments, const std::string& limits = "") {
-    return run_program(test::program_path(), arguments, limits);
-}
-
 std::string text_of(const fs::path& file) {
     std::ifstream stream(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), {}};
@@ -985,6 +981,7 @@ SCENARIO("A full disk leaves nothing half-written", "[workbench][bad-input]") {
         run({"prepare", tube() + "/exact.vtp", "--for", "rp", "--out", out}, "ulimit -f 700;");
     INFO(result.err);
     CHECK(result.exit_code == 3);
+    CHECK_THAT(result.err, Contains("ulimit -f"));
     for (const std::string& name : names_in(out)) CHECK_THAT(name, Contains("project.vbench"));
 }
 

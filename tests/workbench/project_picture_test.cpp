@@ -4,7 +4,6 @@
 #include "geometry/formats/surface_file.h"
 #include "geometry/kernel/whole_file.h"
 #include "gpu/png.h"
-#include "tests/support/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
 #include "tests/support/skip.h"
@@ -14,10 +13,6 @@ using namespace vesselbench::test;
 using Catch::Matchers::Contains;
 
 namespace {
-
-ProgramRun run(const std::vector<std::string>& words) {
-    return run_program(program_path(), words);
-}
 
 /// Pixels that are not the background.
 std::size_t drawn_pixels(const ClearPicture& picture) {

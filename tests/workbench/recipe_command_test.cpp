@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/formats/surface_file.h"
-#include "tests/support/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/scene_bits.h"
 #include "tests/support/shapes.h"
@@ -22,10 +21,6 @@ using Json = nlohmann::ordered_json;
 using Words = std::vector<std::string>;
 
 namespace {
-
-ProgramRun run(const Words& arguments) {
-    return run_program(test::program_path(), arguments);
-}
 
 /// A recipe in a file.
 std::string file_with(const std::string& text) {

@@ -13,7 +13,6 @@
 
 #include "geometry/formats/surface_file.h"
 #include "geometry/kernel/diagnosed_error.h"
-#include "tests/support/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surface_facts.h"
@@ -27,10 +26,6 @@ using Json = nlohmann::ordered_json;
 using Words = std::vector<std::string>;
 
 namespace {
-
-ProgramRun run(const Words& arguments) {
-    return run_program(program_path(), arguments);
-}
 
 /// The diagnostics that the program prints when it stops.
 Json diagnostics_of(const ProgramRun& stopped) {

@@ -22,8 +22,8 @@ Surface wavy_tube() {
     });
 }
 
-ProgramRun run(const std::vector<std::string>& arguments) {
-    ProgramRun result = run_program(test::program_path(), arguments);
+ProgramRun successful_run(const std::vector<std::string>& arguments) {
+    ProgramRun result = run(arguments);
     INFO(result.err);
     REQUIRE(result.exit_code == 0);
     return result;
@@ -48,11 +48,11 @@ void check_figures(const Json& edit) {
 SCENARIO("An edit's figures stand under one key each", "[workbench][report]") {
     const std::string folder = temporary_folder(), project = folder + "/case.vbench";
     write_surface(wavy_tube(), folder + "/tube.vtp");
-    run({"new", project, folder + "/tube.vtp"});
+    successful_run({"new", project, folder + "/tube.vtp"});
     const auto applied = [&](std::vector<std::string> arguments) {
         arguments.insert(arguments.begin(), {"apply", project});
         arguments.emplace_back("--json");
-        return Json::parse(run(arguments).out);
+        return Json::parse(successful_run(arguments).out);
     };
     const std::vector<std::string> dab = {"at=2.2,0,6", "radius=1.5", "strength=0.5"};
     const auto brushed = [&](const std::string& brush) {

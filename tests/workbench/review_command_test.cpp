@@ -23,10 +23,6 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-ProgramRun run(const std::vector<std::string>& arguments) {
-    return run_program(program_path(), arguments);
-}
-
 Json json_of(std::vector<std::string> arguments) {
     arguments.emplace_back("--json");
     return Json::parse(run(arguments).out);

@@ -15,7 +15,6 @@
 #include "tests/support/beginning.h"
 #include "tests/support/forked_vessel.h"
 #include "tests/support/image_shapes.h"
-#include "tests/support/paths.h"
 #include "tests/support/program.h"
 #include "tests/support/shapes.h"
 #include "workbench/prepare/venous_name.h"
@@ -29,10 +28,6 @@ using Names = std::vector<std::string>;
 namespace fs = std::filesystem;
 
 namespace {
-
-ProgramRun run(const Names& arguments) {
-    return run_program(program_path(), arguments);
-}
 
 Json json_in(const std::string& file) {
     return Json::parse(file_content(file));

@@ -31,13 +31,11 @@ std::span<const Purpose> purposes() {
          .relevance = {'+', '-', '+', 'o', '-', '-'}},
         {.name = "planning",
          .title = "Model for treatment planning",
-         .words = {},
          .help = "pictures\n(planning: keeps raw triangles)",
          .summary = "Smooth surface with its own triangles",
          .relevance = {'+', '+', '+', 'o', '-', '-'}},
         {.name = "simulation",
          .title = "Model for surgery simulation",
-         .words = {},
          .help = "surgery simulation (simulation)",
          .summary = "Smooth, remeshed surface",
          .relevance = {'-', 'o', '+', 'o', '+', '+'}}};

@@ -11,7 +11,7 @@ namespace vesselbench {
 struct Purpose {
     std::string name;                        ///< "cfd"
     std::string title;                       ///< of the report: "Model for flow simulation"
-    std::vector<std::string> words;          ///< `prepare --for` takes them too: "flow"
+    std::vector<std::string> words = {};     ///< `prepare --for` takes them too: "flow"
     std::string help;                        ///< with its name and words: "flow simulation (cfd)"
     std::string summary;                     ///< what is special about the model, one line
     std::vector<std::string> products = {};  ///< file names, besides those of the surface

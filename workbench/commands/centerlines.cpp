@@ -9,6 +9,7 @@
 #include "geometry/formats/centerline_file.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/wording.h"
+#include "geometry/vessel/openings/vessel_check.h"
 #include "workbench/case/json_text.h"
 #include "workbench/commands/commands.h"
 #include "workbench/commands/console/console.h"
@@ -80,6 +81,7 @@ void print_table(const CenterlineGraph& graph) {
 void find_centerlines(const CenterlineOptions& options, const Progress& progress) {
     check_centerline_name(options.out);
     const Surface surface = read_foreign_surface(options.surface, options.units);
+    require_lumen(surface, SurfaceOrigin::File);
     const CenterlineGraph graph = compute_centerlines(surface, {}, progress);
     write_centerlines(graph, options.out);
     if (options.json) {

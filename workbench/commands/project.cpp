@@ -14,6 +14,7 @@
 #include "workbench/commands/console/console.h"
 #include "workbench/commands/console/messages.h"
 #include "workbench/operations/table.h"
+#include "workbench/prepare/decided_entry.h"
 #include "workbench/prepare/edits_recipe.h"
 #include "workbench/prepare/prepared_purposes.h"
 #include "workbench/prepare/recipe.h"
@@ -342,10 +343,11 @@ void change_edit(const ChangeOptions& options, const Progress& progress) {
     Session session = Session::open(options.project, {.find = find_operation});
     const std::shared_ptr<const Snapshot> before = session.snapshot();
     const EditRecord& old = edit_of(*before, options.edit);
-    const GivenArguments more =
-        arguments_from_texts(find_operation(old.operation), options.arguments);
-    Arguments given = old.given;
-    for (const auto& [name, value] : more->values()) given.set(name, value);
+    const DecidedEntry changed = decided_change(
+        options.edit, arguments_from_texts(find_operation(old.operation), options.arguments),
+        session, progress.silent());
+    const Arguments& given = changed.entry.given;
+    if (!changed.remark.empty()) remark(changed.remark);
     const LogEntry entry = session.change_edit(
         options.edit, given, {.author = options.author, .note = options.note}, progress);
     if (options.anew) session.decide_anew({.author = options.author});

@@ -13,6 +13,7 @@
 #include "geometry/kernel/measure.h"
 #include "workbench/case/point_json.h"
 #include "workbench/case/stated_change.h"
+#include "workbench/operations/stamp/topology_json.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {
@@ -66,23 +67,21 @@ void set_vessel(Arguments& arguments, const std::array<Vec3, 2>& vessel) {
 }
 
 Json report_json(const SeparateReport& figures) {
-    return {{"contact_mm", point_json(figures.centre)},
-            {"contact_width_mm", figures.width},
-            {"contact_length_mm", figures.length},
-            {"waist", figures.waist},
-            {"gap_mm", figures.gap},
-            {"largest_mm", figures.farthest},
-            {"lost_height_mm", figures.lost},
-            {"lost_height_at_mm", point_json(figures.lost_at)},
-            {"influence_mm", figures.influence},
-            {"radius_a_mm", figures.radii[0]},
-            {"radius_b_mm", figures.radii[1]},
-            {"triangles_replaced", figures.replaced},
-            {"triangles_new", figures.replacement},
-            {"components_before", figures.components_before},
-            {"components_after", figures.components_after},
-            {"genus_before", figures.genus_before},
-            {"genus_after", figures.genus_after}};
+    Json report = {{"contact_mm", point_json(figures.centre)},
+                   {"contact_width_mm", figures.width},
+                   {"contact_length_mm", figures.length},
+                   {"waist", figures.waist},
+                   {"gap_mm", figures.gap},
+                   {"largest_mm", figures.farthest},
+                   {"lost_height_mm", figures.lost},
+                   {"lost_height_at_mm", point_json(figures.lost_at)},
+                   {"influence_mm", figures.influence},
+                   {"radius_a_mm", figures.radii[0]},
+                   {"radius_b_mm", figures.radii[1]},
+                   {"triangles_replaced", figures.replaced},
+                   {"triangles_new", figures.replacement}};
+    add_topology(report, figures);
+    return report;
 }
 
 Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) {

@@ -9,6 +9,7 @@
 #include "geometry/kernel/measure.h"
 #include "workbench/case/stated_change.h"
 #include "workbench/operations/stamp/tool.h"
+#include "workbench/operations/stamp/topology_json.h"
 #include "workbench/operations/table.h"
 
 namespace vesselbench {
@@ -19,16 +20,14 @@ using Json = nlohmann::ordered_json;
 
 Json report_json(const StampReport& figures, bool at_contact) {
     const bool removed = figures.volume_change < 0.0;
-    return {{"at_contact", at_contact},
-            {removed ? "removed_mm3" : "added_mm3", std::abs(figures.volume_change)},
-            {"triangles_replaced", figures.replaced},
-            {"triangles_new", figures.replacement},
-            {"edge_mm", figures.edge},
-            {"influence_mm", figures.influence},
-            {"components_before", figures.components_before},
-            {"components_after", figures.components_after},
-            {"genus_before", figures.genus_before},
-            {"genus_after", figures.genus_after}};
+    Json report = {{"at_contact", at_contact},
+                   {removed ? "removed_mm3" : "added_mm3", std::abs(figures.volume_change)},
+                   {"triangles_replaced", figures.replaced},
+                   {"triangles_new", figures.replacement},
+                   {"edge_mm", figures.edge},
+                   {"influence_mm", figures.influence}};
+    add_topology(report, figures);
+    return report;
 }
 
 Outcome run(const Scene& scene, const Arguments& arguments, Progress& progress) {

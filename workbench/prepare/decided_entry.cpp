@@ -20,6 +20,8 @@ namespace {
 /// now or then, as a sac may have lost a part [diameters].
 constexpr double kSameEnd = 1.0;
 
+constexpr const char* kCutsChosen = "the cuts that were given by hand are chosen again";
+
 /// A parameter of places, with more of them.
 void add_places(GivenArguments& given, const char* parameter, const Positions& more) {
     if (more.empty()) return;
@@ -199,16 +201,21 @@ bool can_be_planned(const GivenArguments& given, const Scene& scene, const Progr
     }
 }
 
-}  // namespace
+/// True if an entry opens all ends of a vessel.
+bool opens_all(const GivenArguments& given) {
+    return given.operation().recipe.cuts_ends && !given->has("tip");
+}
 
-DecidedEntry decided_entry(const RecipeEntry& entry, Session& session, const std::string& variant,
-                           const Progress& progress) {
+/// True if it also decides where.
+bool decides_all(const GivenArguments& given) {
+    return opens_all(given) && !given->has("planes");
+}
+
+/// \param decided by falling rank  \param before the last edit before that of the entry
+DecidedEntry completed(const RecipeEntry& entry, const std::vector<DecidedEnd>& decided,
+                       std::optional<EditId> before, Session& session, const Progress& progress) {
     DecidedEntry made{.entry = entry, .remark = ""};
     const GivenArguments& given = entry.given;
-    if (!given.operation().recipe.cuts_ends || given->has("tip") || given->has("planes"))
-        return made;
-    const std::vector<DecidedEnd> decided = decided_ends(*session.snapshot());
-    const auto before = edit_before(session.log(variant), step_of(entry));
     if (decided.empty() || !before) return made;
     const Scene scene = session.scene_after(*before, progress);
     if (!scene.surface) return made;
@@ -225,6 +232,69 @@ DecidedEntry decided_entry(const RecipeEntry& entry, Session& session, const std
         made.remark = std::move(remark);
     } catch (const AlgorithmFailure&) {  // the operation itself says what is wrong
     }
+    return made;
+}
+
+bool names_ends(const Arguments& given) {
+    return std::ranges::any_of(kNumberParameters, [&](const NumberParameter& p) {
+        return given.has(p.numbers) || given.has(p.places);
+    });
+}
+
+/// Without what names ends: their roles and cuts.
+GivenArguments without_ends(const GivenArguments& given) {
+    Arguments left = given;
+    for (const NumberParameter& parameter : kNumberParameters) {
+        left.remove(parameter.numbers);
+        left.remove(parameter.places);
+    }
+    for (const char* name : {"planes", "names", "closings"}) left.remove(name);
+    return given_arguments(given.operation(), left);
+}
+
+/// With those of the edit itself first. \param turned the blood flows another way: inlets are open
+std::vector<DecidedEnd> decided_first(std::vector<DecidedEnd> decided, EditId edit, bool turned) {
+    std::ranges::stable_partition(decided,
+                                  [&](const DecidedEnd& end) { return end.edit.id == edit; });
+    for (DecidedEnd& end : decided)
+        if (turned && end.role == EndRole::Inlet) end.role = EndRole::Open;
+    return decided;
+}
+
+}  // namespace
+
+DecidedEntry decided_entry(const RecipeEntry& entry, Session& session, const std::string& variant,
+                           const Progress& progress) {
+    if (!decides_all(entry.given)) return {.entry = entry, .remark = ""};
+    return completed(entry, decided_ends(*session.snapshot()),
+                     edit_before(session.log(variant), step_of(entry)), session, progress);
+}
+
+DecidedEntry decided_change(EditId edit, const GivenArguments& more, Session& session,
+                            const Progress& progress) {
+    const std::vector<LogEntry> all = session.log();
+    const auto old = std::ranges::find(all, edit, [](const LogEntry& e) { return e.edit.edit.id; });
+    if (old == all.end()) throw UsageError("the current state has no edit " + std::to_string(edit));
+    Arguments former = old->edit.given;
+    const auto past = session.snapshot()->past;
+    if (const auto ran = past->find(old->edit.edit); ran != past->end() && ran->second.first)
+        former = with_found_places(std::move(former), ran->second.first->resolved);
+    GivenArguments given = given_arguments(more.operation(), former);
+    const bool other_ends = opens_all(given) && names_ends(more);
+    const bool loses_cuts = other_ends && given->has("planes") && !more->has("planes");
+    if (other_ends) given = without_ends(given);
+    given.set(more);
+    const RecipeEntry entry{.given = given, .step = old->edit.place.step};
+    if (!decides_all(given)) return {.entry = entry, .remark = ""};
+    std::optional<EditId> before;
+    for (const LogEntry& each : session.log(old->edit.place.variant)) {
+        if (each.edit.edit.id == edit) break;
+        before = each.edit.edit.id;
+    }
+    DecidedEntry made = completed(
+        entry, decided_first(decided_ends(*session.snapshot()), edit, more->has("vessel")), before,
+        session, progress);
+    if (loses_cuts) made.remark += std::string(made.remark.empty() ? "" : "; ") + kCutsChosen;
     return made;
 }
 

@@ -21,4 +21,12 @@ struct DecidedEntry {
 [[nodiscard]] DecidedEntry decided_entry(const RecipeEntry& entry, Session& session,
                                          const std::string& variant, const Progress& progress);
 
+/// The arguments of a changed edit: those it has, and `more`, which replace others of the same
+/// names. Of an edit that opens all vessel ends, what `more` says of ends and inlets is all that
+/// changes about them: each other end stays what the edit made of it, as decided_entry() has it.
+/// Planes that were given are chosen again then.
+/// \throw UsageError if the current state has no such edit, or `more` is of another operation
+[[nodiscard]] DecidedEntry decided_change(EditId edit, const GivenArguments& more, Session& session,
+                                          const Progress& progress);
+
 }  // namespace vesselbench

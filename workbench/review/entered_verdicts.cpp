@@ -23,11 +23,18 @@ void refuse_retired(const std::vector<RetiredKey>& keys, std::vector<EnteredVerd
 std::vector<EnteredVerdicts> entered_verdicts(const ProjectFile& project,
                                               const std::filesystem::path& signers,
                                               const Progress& progress) {
+    return entered_verdicts(project, project.record_entries(), signers, progress);
+}
+
+std::vector<EnteredVerdicts> entered_verdicts(const ProjectFile& project,
+                                              std::span<const ChainEntry> record,
+                                              const std::filesystem::path& signers,
+                                              const Progress& progress) {
     std::vector<EnteredVerdicts> entered;
     for (const StoredVerdicts& stored : project.verdicts())
         entered.push_back({verdicts_from_text(stored.text, "the stored verdicts"),
                            signature_of(stored, signers, progress), signing_key(stored.signature)});
-    refuse_retired(retired_keys(project), entered);
+    refuse_retired(retired_keys(record), entered);
     return entered;
 }
 

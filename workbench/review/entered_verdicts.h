@@ -1,9 +1,11 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "workbench/project/chain.h"
 #include "workbench/project/project.h"
 #include "workbench/review/signature.h"
 #include "workbench/review/verdicts.h"
@@ -23,6 +25,11 @@ struct EnteredVerdicts {
 [[nodiscard]] std::vector<EnteredVerdicts> entered_verdicts(
     const ProjectFile& project, const std::filesystem::path& signers = {},
     const Progress& progress = {});
+
+/// The same for who has read the record already. \param record its entries
+[[nodiscard]] std::vector<EnteredVerdicts> entered_verdicts(
+    const ProjectFile& project, std::span<const ChainEntry> record,
+    const std::filesystem::path& signers = {}, const Progress& progress = {});
 
 /// What counts where signatures are required: verdicts whose signature verifies, and rejections
 /// always. Anyone can write an unsigned verdict in another's name: it may stop a model, but neither

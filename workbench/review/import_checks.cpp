@@ -10,7 +10,6 @@
 #include "workbench/project/project.h"
 #include "workbench/project/record_check.h"
 #include "workbench/project/utc_time.h"
-#include "workbench/review/entered_verdicts.h"
 #include "workbench/review/reviewer_name.h"
 
 namespace vesselbench {
@@ -58,15 +57,15 @@ void check_times(const VerdictFile& file, const std::string& name) {
 
 /// \throw InvalidInput if an eye would take the name for that of another reviewer
 void check_reviewer_name(const VerdictFile& file, const std::string& name,
-                         const ProjectFile& project) {
+                         std::span<const EnteredVerdicts> entered) {
     const std::string place = name + ".reviewer.name " + shown_in_quotes(file.reviewer);
     if (has_hidden_characters(file.reviewer))
         throw InvalidInput(place + " holds characters that show nothing: give it without them");
     const std::string outline = name_outline(file.reviewer),
                       compared = compared_name(file.reviewer);
     if (outline.empty()) throw InvalidInput(place + " has no letter");
-    for (const EnteredVerdicts& entered : entered_verdicts(project))
-        if (const std::string& other = entered.verdicts.reviewer;
+    for (const EnteredVerdicts& one : entered)
+        if (const std::string& other = one.verdicts.reviewer;
             name_outline(other) == outline && compared_name(other) != compared)
             throw InvalidInput(place + " is nearly that of a reviewer of this project, " +
                                shown_in_quotes(other) +
@@ -112,11 +111,11 @@ void check_seen_edits(const VerdictFile& file, const std::string& name, const Se
 
 }  // namespace
 
-void check_before_entering(const VerdictFile& file, const std::string& name,
-                           const Session& session) {
+void check_before_entering(const VerdictFile& file, const std::string& name, const Session& session,
+                           std::span<const EnteredVerdicts> entered) {
     check_origin(file, name, session);
     check_times(file, name);
-    check_reviewer_name(file, name, session.project());
+    check_reviewer_name(file, name, entered);
     check_seen_edits(file, name, session);
 }
 

@@ -27,7 +27,7 @@ bool knows_review(const std::vector<ChainEntry>& entries) {
 /// Everything that contradicts the record; what reviewers saw of it is read only from a sound one.
 std::vector<Diagnostic> contradictions_in(const ProjectFile& project, const RecordCheck& check) {
     if (!check.findings.empty()) return check.findings;
-    return contradictions_of(witnesses_of(entered_verdicts(project)), check);
+    return contradictions_of(witnesses_of(entered_verdicts(project, check.entries)), check);
 }
 
 [[noreturn]] void refuse_review(std::vector<Diagnostic> contradictions) {

@@ -7,7 +7,6 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/printable.h"
 #include "workbench/case/json_text.h"
-#include "workbench/project/chain.h"
 #include "workbench/project/project.h"
 #include "workbench/review/signing_key.h"
 
@@ -23,10 +22,10 @@ std::string retirement_reason(const ChainEntry& entry) {
 
 }  // namespace
 
-std::vector<RetiredKey> retired_keys(const ProjectFile& project) {
+std::vector<RetiredKey> retired_keys(std::span<const ChainEntry> entries) {
     std::vector<RetiredKey> keys;
     std::size_t files = 0;
-    for (const ChainEntry& entry : project.record_entries()) {
+    for (const ChainEntry& entry : entries) {
         if (entry.kind == kVerdictsEntered) ++files;
         if (entry.kind != kKeyRetired) continue;
         keys.push_back({.fingerprint = entry.subject,
@@ -36,6 +35,10 @@ std::vector<RetiredKey> retired_keys(const ProjectFile& project) {
                         .files_before = files});
     }
     return keys;
+}
+
+std::vector<RetiredKey> retired_keys(const ProjectFile& project) {
+    return retired_keys(project.record_entries());
 }
 
 const RetiredKey* find_retired(const std::vector<RetiredKey>& keys,

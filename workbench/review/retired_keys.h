@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "workbench/project/chain.h"
 #include "workbench/session/session.h"
 
 namespace vesselbench {
@@ -17,7 +19,10 @@ struct RetiredKey {
     std::size_t files_before = 0;  ///< of verdicts, that were entered before it
 };
 
-/// In the order of their entries.
+/// In the order of their entries. \param entries of the whole record
+[[nodiscard]] std::vector<RetiredKey> retired_keys(std::span<const ChainEntry> entries);
+
+/// The same; reads the record.
 [[nodiscard]] std::vector<RetiredKey> retired_keys(const ProjectFile& project);
 
 /// The key with this fingerprint among them; null: it is not retired.

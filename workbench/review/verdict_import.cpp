@@ -56,10 +56,9 @@ void check_not_retired(const std::string& signature, const std::string& name,
 }
 
 /// True if a project has what a file says, signed or not.
-bool has_verdicts(const ProjectFile& project, const std::string& text) {
-    return std::ranges::any_of(entered_verdicts(project), [&](const EnteredVerdicts& entered) {
-        return text_of(entered.verdicts) == text;
-    });
+bool has_verdicts(std::span<const EnteredVerdicts> entered, const std::string& text) {
+    return std::ranges::any_of(
+        entered, [&](const EnteredVerdicts& one) { return text_of(one.verdicts) == text; });
 }
 
 /// \throw InvalidInput if a required signature is missing or does not verify
@@ -85,11 +84,12 @@ std::size_t outdated_in(const VerdictFile& file, const Session& session) {
 ImportedVerdicts enter(Session& session, StoredVerdicts given, const Signature& signature,
                        const std::string& name) {
     ImportedVerdicts done{.verdicts = verdicts_from_text(given.text, name), .signature = signature};
-    check_before_entering(done.verdicts, name, session);
+    const std::vector<EnteredVerdicts> entered = entered_verdicts(session.project());
+    check_before_entering(done.verdicts, name, session, entered);
     check_not_retired(given.signature, name, session.project());
     const std::string facts = facts_of(done.verdicts, given.signature, signature);
     if (given.signature.empty()) given.text = text_of(done.verdicts);
-    done.known = given.signature.empty() && has_verdicts(session.project(), given.text);
+    done.known = given.signature.empty() && has_verdicts(entered, given.text);
     if (!done.known)
         done.known = !session.add_verdicts(
             given, hash_of_text(given.text + given.signature),

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "geometry/kernel/content_key.h"
+#include "geometry/kernel/surface_distance.h"
 
 namespace vesselbench {
 
@@ -81,6 +82,19 @@ bool has_corner_in(const Surface& surface, const Triangle& t,
                          t, [&](VertexId v) { return !is_outside(surface.points()[v], *zones); });
 }
 
+/// Middles of the triangles that the other surface lacks [mm].
+Positions middles_missing_in(const Surface& other, const Surface& surface) {
+    const std::vector<std::uint8_t> missing = triangles_missing_in(other, surface, std::nullopt);
+    Positions middles;
+    for (TriangleId t = 0; t < missing.size(); ++t) {
+        if (!missing[t]) continue;
+        const auto& [a, b, c] = surface.triangles()[t];
+        middles.emplace_back((surface.points()[a] + surface.points()[b] + surface.points()[c]) /
+                             3.0);
+    }
+    return middles;
+}
+
 }  // namespace
 
 bool same_triangles(const Surface& a, const Surface& b) {
@@ -123,6 +137,22 @@ std::vector<std::uint8_t> triangles_missing_in(
             missing[t] = 1;
     }
     return missing;
+}
+
+std::optional<Vec3> farthest_change(const Surface& before, const Surface& after) {
+    std::optional<Vec3> place;
+    if (before.empty() || after.empty()) return place;
+    double farthest = -1.0;
+    for (const auto& [surface, other] : {std::pair(&before, &after), std::pair(&after, &before)}) {
+        const Positions middles = middles_missing_in(*other, *surface);
+        if (middles.empty()) continue;
+        const std::vector<SurfacePoint> nearest = distance_to(*other).closest_points(middles);
+        const auto most = std::ranges::max_element(nearest, {}, &SurfacePoint::distance);
+        if (most->distance <= farthest) continue;
+        farthest = most->distance;
+        place = middles[static_cast<std::size_t>(most - nearest.begin())];
+    }
+    return place;
 }
 
 std::vector<VertexId> corners_of(const Surface& surface, const std::vector<std::uint8_t>& flagged) {

@@ -31,6 +31,10 @@ namespace vesselbench {
     const Surface& other, const Surface& surface,
     const std::optional<std::vector<ChangeZone>>& zones);
 
+/// Middle of the triangle, of those that the other surface lacks, that lies farthest from it: a
+/// part that is gone, a hole that is closed. None: both have the same triangles, or one has none.
+[[nodiscard]] std::optional<Vec3> farthest_change(const Surface& before, const Surface& after);
+
 /// Vertices of the flagged triangles, each once.
 [[nodiscard]] std::vector<VertexId> corners_of(const Surface& surface,
                                                const std::vector<std::uint8_t>& flagged);

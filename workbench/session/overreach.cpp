@@ -205,7 +205,9 @@ std::optional<Diagnostic> overreach(const StatedChange& stated, const Scene& bef
     const Surface &was = *before.surface, &is = *after.surface;
     if (was.topology == is.topology && was.positions == is.positions) return std::nullopt;
     Finding found = beyond(stated, was, is, progress);
-    if (found) found->remedies = stated.remedies;
+    if (!found) return found;
+    if (!found->place) found->place = farthest_change(was, is);
+    found->remedies = stated.remedies;
     return found;
 }
 

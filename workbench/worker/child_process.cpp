@@ -64,6 +64,10 @@ void write_all(int descriptor, std::span<const std::byte> bytes) {
     while (!bytes.empty()) {
         const auto done = write(descriptor, bytes.data(), bytes.size());
         if (done < 0 && errno == EINTR) continue;
+        if (done < 0 && errno == EFBIG)
+            throw IoError(
+                "cannot pass data to another process: it is larger than the limit on the "
+                "size of files; raise it (ulimit -f)");
         if (done <= 0) throw IoError("cannot pass data to another process: out of memory");
         bytes = bytes.subspan(static_cast<std::size_t>(done));
     }

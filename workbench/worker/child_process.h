@@ -39,7 +39,8 @@ private:
 /// A file in memory, empty, which a child can be given.
 [[nodiscard]] Descriptor memory_file(const char* name);
 
-/// \throw IoError if there is no memory left
+/// \throw IoError if there is no memory left, or it is more than files may have (RLIMIT_FSIZE, of
+/// which SIGXFSZ is ignored)
 void write_all(int descriptor, std::span<const std::byte> bytes);
 
 /// How a child is started.

@@ -362,6 +362,17 @@ Bytes run_request(const OperationLookup& find) {
     return outcome_bytes(outcome, take_apart(scene).parts);
 }
 
+/// An answer that cannot be written is replaced by a short one that says why.
+void write_answer(const Bytes& answer) {
+    try {
+        write_all(kOutcome, answer);
+    } catch (const IoError&) {
+        const Bytes why = outcome_or_error([]() -> Bytes { throw; });
+        lseek(kOutcome, 0, SEEK_SET);
+        write_all(kOutcome, why);
+    }
+}
+
 }  // namespace
 
 Outcome run_in_worker(const Operation& operation, const Scene& scene,
@@ -410,9 +421,9 @@ int worker_main(const OperationLookup& find) {
     if (fcntl(kOutcome, F_GETFD) < 0 || fcntl(kProgress, F_GETFD) < 0) return 2;
     prctl(PR_SET_PDEATHSIG, SIGKILL);  // no worker outlives its session
     limit(RLIMIT_CORE, 0);
-    const Bytes answer = outcome_or_error([&] { return run_request(find); });
+    std::signal(SIGXFSZ, SIG_IGN);  // a failed write is an answer, too
     try {
-        write_all(kOutcome, answer);
+        write_answer(outcome_or_error([&] { return run_request(find); }));
     } catch (const std::exception&) {
         return 1;
     }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "geometry/vessel/ends/flow_share.h"
 #include "geometry/vessel/ends/weight_table.h"
 
 namespace vesselbench {
@@ -28,15 +29,11 @@ double reference_of(const EndChoice& choice) {
     return widest;
 }
 
-double share_of(double diameter, double reference) {
-    return reference > 0.0 ? std::min(1.0, std::pow(diameter / reference, 3.0)) : 0.0;
-}
-
 void set_shares(EndChoice& choice) {
     const double reference = reference_of(choice);
     for (auto* list : {&choice.ends, &choice.stubs})
         for (EndVerdict& verdict : *list)
-            verdict.share = share_of(verdict.profile.diameter, reference);
+            verdict.share = share_of_flow(verdict.profile.diameter, reference);
 }
 
 void set_vessels(EndChoice& choice, const EndScene& scene, const std::vector<SurfaceEnd>& ends) {
@@ -92,7 +89,7 @@ void continue_vessels(EndChoice& choice) {
     for (const auto& [branch, ends] : behind) order.push_back(branch);
     std::ranges::stable_sort(order, {}, [&](std::size_t b) { return behind[b].size(); });
     for (const std::size_t branch : order)
-        if (const double share = share_of(diameters[branch], reference); share > kLeastShare)
+        if (const double share = share_of_flow(diameters[branch], reference); share > kLeastShare)
             continue_vessel(behind[branch], share);
 }
 

@@ -10,6 +10,7 @@
 #include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/diagnostic_text.h"
 #include "geometry/kernel/wording.h"
+#include "geometry/vessel/ends/flow_share.h"
 #include "geometry/vessel/ends/stub_lines.h"
 #include "geometry/vessel/ends/surface_ends.h"
 #include "geometry/vessel/openings/cut_trial.h"
@@ -112,8 +113,9 @@ bool ends_vessel(const OpeningPlan& plan, const EndRecord& end) {
         });
     };
     return std::ranges::any_of(end.verdict->through, [&](const SharedVessel& vessel) {
-        const double part = vessel.diameter / trunk->verdict->profile.diameter;
-        return part * part * part > kLeastShare && !leads_to_opening(vessel.branch);
+        const double whole = trunk->verdict->profile.diameter;
+        return share_of_flow(vessel.diameter, whole) > kLeastShare &&
+               !leads_to_opening(vessel.branch);
     });
 }
 

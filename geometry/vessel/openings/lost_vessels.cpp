@@ -1,7 +1,6 @@
 #include "geometry/vessel/openings/lost_vessels.h"
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <limits>
 
@@ -9,6 +8,7 @@
 #include "geometry/kernel/surface_distance.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
 #include "geometry/vessel/ends/end_choice.h"
+#include "geometry/vessel/ends/flow_share.h"
 #include "geometry/vessel/ends/flow_tree.h"
 #include "geometry/vessel/openings/opening_axis.h"
 #include "geometry/vessel/openings/rim_shape.h"
@@ -225,8 +225,7 @@ std::vector<LostVessel> lost_vessels(const CenterlineGraph& before, const Surfac
     std::ranges::stable_sort(lost, std::greater{}, &LostVessel::diameter);
     if (lost.empty()) return lost;
     const double widest = std::ranges::max(course_diameters(before));
-    for (LostVessel& vessel : lost)
-        vessel.share = std::min(1.0, std::pow(vessel.diameter / widest, 3.0));
+    for (LostVessel& vessel : lost) vessel.share = share_of_flow(vessel.diameter, widest);
     return lost;
 }
 

@@ -169,6 +169,15 @@ bool gathers(const Arguments& arguments) {
     return arguments.optional_text("vessel") == kVein;
 }
 
+Arguments with_found_places(Arguments given, const Arguments& resolved) {
+    for (const NumberParameter& parameter : kNumberParameters) {
+        if (!given.has(parameter.numbers) || !resolved.has(parameter.places)) continue;
+        given.set(parameter.places, resolved.list(parameter.places));
+        given.remove(parameter.numbers);
+    }
+    return given;
+}
+
 bool names_numbers(const Arguments& arguments) {
     return std::ranges::any_of(kNumberParameters,
                                [&](const auto& p) { return arguments.has(p.numbers); });

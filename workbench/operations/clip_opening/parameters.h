@@ -32,6 +32,10 @@ inline constexpr const char *kArtery = "artery", *kVein = "vein", *kPortalVein =
 /// True if the blood gathers, as in a vein: all ends but the trunk's are inlets.
 [[nodiscard]] bool gathers(const Arguments& arguments);
 
+/// Ends that are named by their numbers, by the places that a run found for these: on another input
+/// the numbers are those of other ends.
+[[nodiscard]] Arguments with_found_places(Arguments given, const Arguments& resolved);
+
 [[nodiscard]] bool names_numbers(const Arguments& arguments);
 
 /// \throw UsageError if arguments contradict each other, or points have too few numbers

@@ -16,15 +16,19 @@
 
 namespace vesselbench {
 
-void FindingsFeature::forget() {
+void FindingsFeature::forget_list() {
     search_.forget();
-    storing_.forget();
     end_trial();
     refusals_.clear();
     of_.reset();
     findings_.reset();
     at_.reset();
     asked_.reset();
+}
+
+void FindingsFeature::forget() {
+    forget_list();
+    storing_.forget();
     reason.clear();
     unfolded_ = false;
     tour_ = 0;
@@ -85,13 +89,7 @@ bool FindingsFeature::drop_stale() {
     const Scene* scene = core_.document.newest();
     const bool same = scene != nullptr && scene->surface && scene->surface->positions == of_;
     if (same || !of_) return false;
-    search_.forget();
-    end_trial();
-    refusals_.clear();
-    of_.reset();
-    findings_.reset();
-    at_.reset();
-    asked_.reset();
+    forget_list();
     return true;
 }
 

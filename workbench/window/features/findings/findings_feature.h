@@ -89,6 +89,7 @@ private:
     };
 
     void forget();
+    void forget_list();
     void judge();
     void try_correction(std::size_t index);
     void end_trial();

@@ -9,9 +9,11 @@
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/openings/opening_names.h"
 #include "workbench/case/argument_texts.h"
+#include "workbench/operations/clip_opening/parameters.h"
 #include "workbench/operations/shared/opening_arguments.h"
 #include "workbench/operations/table.h"
 #include "workbench/prepare/decided_ends.h"
+#include "workbench/window/case/rail.h"
 
 namespace vesselbench {
 
@@ -77,6 +79,22 @@ std::optional<MadeOpening> made_opening(const Snapshot& now, const std::string& 
         }
     }
     return made;
+}
+
+std::vector<FieldText> found_texts(const Snapshot& now, EditId edit) {
+    const LogEntry* entry = find_entry(now, edit);
+    if (entry == nullptr) return {};
+    const auto past = now.past->find(entry->edit.edit);
+    if (past == now.past->end() || !past->second.first) return {};
+    const Arguments given = entry->edit.given,
+                    found = with_found_places(given, past->second.first->resolved);
+    std::vector<FieldText> texts;
+    for (const NumberParameter& parameter : kNumberParameters) {
+        if (given.has(parameter.numbers) == found.has(parameter.numbers)) continue;
+        texts.push_back({parameter.places, to_text(Value(found.list(parameter.places)))});
+        texts.push_back({parameter.numbers, ""});
+    }
+    return texts;
 }
 
 std::vector<std::pair<int, EndWish>> former_wishes(const std::vector<EndRow>& rows,

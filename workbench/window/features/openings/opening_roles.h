@@ -30,6 +30,10 @@ struct MadeOpening {
                                                       const std::string& variant,
                                                       const PatchMeasures& opening);
 
+/// The fields of an edit that names ends by their numbers, with the places that it found for these
+/// instead: on its input now, the numbers may be those of other ends.
+[[nodiscard]] std::vector<FieldText> found_texts(const Snapshot& now, EditId edit);
+
 /// By their numbers, the ends that an edit opened or closed and that would be otherwise now.
 [[nodiscard]] std::vector<std::pair<int, EndWish>> former_wishes(const std::vector<EndRow>& rows,
                                                                  const Snapshot& now, EditId edit);

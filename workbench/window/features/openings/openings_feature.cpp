@@ -14,22 +14,27 @@ bool OpeningsFeature::update() {
     if (changed && core_.form() && !core_.before_drag())
         core_.fill_form(openings_.due_texts(*core_.form()));
     const bool known = !openings_.rows().empty() || !openings_.problem().empty();
-    if (wanted_inlet_ && known && !openings_.pending()) fill_wanted_inlet();
+    if (keeps_ends_ && known && !openings_.pending()) keep_ends();
     return changed;
 }
 
-/// The other ends stay what the edit made of them, whatever the odds say of its input now.
-void OpeningsFeature::fill_wanted_inlet() {
-    const Vec3 inlet = *std::exchange(wanted_inlet_, std::nullopt);
-    openings_.select_near(inlet);
-    const std::optional<int> number = openings_.selected();
-    if (!number || !core_.form() || !core_.form()->edit()) return;
-    const OperationForm& form = *core_.form();
-    const std::vector<EndRow> rows = openings_.rows();
-    const auto wishes = former_wishes(rows, *core_.document.snapshot(), *form.edit());
-    core_.fill_form(openings_.wish_texts(form, *number, EndWish::Inlet));
+void OpeningsFeature::form_shown() {
+    keeps_ends_ = core_.form() && core_.form()->edit();
+    if (keeps_ends_)
+        core_.fill_form(found_texts(*core_.document.snapshot(), *core_.form()->edit()));
+}
+
+void OpeningsFeature::keep_ends() {
+    keeps_ends_ = false;
+    const std::optional<Vec3> inlet = std::exchange(wanted_inlet_, std::nullopt);
+    if (!core_.form() || !core_.form()->edit()) return;
+    if (inlet) openings_.select_near(*inlet);
+    const std::optional<int> number = inlet ? openings_.selected() : std::nullopt;
+    const auto wishes =
+        former_wishes(openings_.rows(), *core_.document.snapshot(), *core_.form()->edit());
+    if (number) core_.fill_form(openings_.wish_texts(*core_.form(), *number, EndWish::Inlet));
     for (const auto& [end, wish] : wishes)
-        if (end != *number) core_.fill_form(openings_.wish_texts(*core_.form(), end, wish));
+        if (end != number) core_.fill_form(openings_.wish_texts(*core_.form(), end, wish));
 }
 
 void OpeningsFeature::click(const PatchMeasures& opening) {

@@ -32,9 +32,12 @@ public:
 
     [[nodiscard]] bool pending() const override { return openings_.pending(); }
 
+    void form_shown() override;
+
     void form_dropped() override {
         forget_role_question();
         wanted_inlet_.reset();
+        keeps_ends_ = false;
     }
 
     [[nodiscard]] bool allows_apply() const override {
@@ -42,12 +45,15 @@ public:
     }
 
 private:
-    void fill_wanted_inlet();
+    /// Fills in an edit's form that its ends stay what it made of them, whatever the odds say of
+    /// its input now, and the inlet that is wanted.
+    void keep_ends();
 
     Core& core_;
     OpeningsModel openings_;
     std::optional<PatchMeasures> asked_;
     std::optional<Vec3> wanted_inlet_;  ///< becomes the inlet when the form's ends are known
+    bool keeps_ends_ = false;           ///< when the ends of an edit's form are known
     int seen_scenes_ = -1;              ///< the document's scene changes
 };
 
