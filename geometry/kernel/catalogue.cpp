@@ -611,6 +611,10 @@ constexpr CatalogueText kTexts[] = {
     {"no-neck",
      "no plane separates a sac with its dome at {place} from the vessel's ends by one closed "
      "curve"},
+    {"plane-is-no-neck",
+     "the plane at {place} does not separate the sac with its dome at {dome} from the vessel's "
+     "ends "
+     "by one closed curve"},
     {"branch-without-parent",
      "the vessel with its tip at {place} has no parent vessel: nothing would remain"},
     {"no-closed-section",

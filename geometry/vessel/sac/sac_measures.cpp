@@ -11,6 +11,8 @@
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/convex_hull_3.h>
 
+#include "geometry/kernel/wording.h"
+
 namespace vesselbench {
 
 namespace {
@@ -131,7 +133,15 @@ SacMeasures measure_sac(const SacPart& sac, double parent_diameter) {
 }
 
 bool neck_in_doubt(const SacMeasures& m) {
-    return m.neck_diameter > kUnroundNeck * m.neck_hydraulic || m.length > kWallBeside * m.height;
+    return !why_neck_in_doubt(m).empty();
+}
+
+std::string why_neck_in_doubt(const SacMeasures& m) {
+    std::vector<std::string> reasons;
+    if (m.neck_diameter > kUnroundNeck * m.neck_hydraulic)
+        reasons.emplace_back("its outline is long for its area");
+    if (m.length > kWallBeside * m.height) reasons.emplace_back("wall lies far beside it");
+    return enumerated(reasons);
 }
 
 }  // namespace vesselbench
