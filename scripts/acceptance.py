@@ -70,8 +70,9 @@ OPENINGS = {"bundled aneurysm": 3, "v4a aneurysm": 3, "v4a healthy": 3, "aneuris
             "carotid capped": 3}
 QUICK = ("bundled aneurysm", "artery bifurcation", "vein", "small aneurysm (m)")
 # The scripts that write pages of figures and repeat one of their rows.
-REPEATS = [f"{name}.py --repeat" for name in ("experiments", "experiments_decimate", "experiments_flow", "experiments_suggest",
-                                              "experiments_layers", "experiments_thin", "experiments_truth", "experiments_tube")]
+REPEATS = [f"{name}.py --repeat" for name in ("experiments", "experiments_decimate", "experiments_flow", "experiments_layers",
+                                              "experiments_sacs", "experiments_suggest", "experiments_thin", "experiments_truth",
+                                              "experiments_tube")]
 # The scripts that try the product as a whole.
 WHOLE = ["firefox", "try_package", "try_container", "batch_kills.py", "batch_slurm.py"]
 # The bundled case's mesh for a flow to be interpreted, not only to converge.

@@ -174,6 +174,23 @@ constexpr CatalogueText kTexts[] = {
     {"no-neck",
      "no plane separates a sac with its dome at {place} from the vessel's ends by one closed "
      "curve"},
+    {"plane-is-no-neck",
+     "the plane at {place} does not separate the sac with its dome at {dome} from the vessel's "
+     "ends "
+     "by one closed curve"},
+    {"neck-without-direction", "the neck's plane has no direction: {fix} must not be 0,0,0"},
+    {"neck-plane-incomplete",
+     "the neck's plane needs a place and a direction: give both {fix} and {fix2}, or neither"},
+    {"no-sac-found",
+     "no blind end is likely to be a sac: give {fix}, a point in its dome[; {ends}]"},
+    {"several-sacs",
+     "{sacs#blind end is|blind ends are} likely to be sacs: give {fix}, a point in the dome of "
+     "one; "
+     "{ends}"},
+    {"neck-in-doubt",
+     "the plane at {place} hardly is a sac's neck, since {why}: the sac's figures are left out; "
+     "give another plane ({fix}), or {fix2} for the figures of this one"},
+    {"sac-not-measured", "the marked sac is not measured on this model: {reason}"},
     {"branch-without-parent",
      "the vessel with its tip at {place} has no parent vessel: nothing would remain"},
     {"no-closed-section",

@@ -23,7 +23,7 @@ namespace {
 nlohmann::ordered_json figures(const std::string& file, const Vec3& dome) {
     const Surface surface = repair(read_surface(file).surface).surface;
     try {
-        const ProposedNeck neck = propose_neck(surface, dome);
+        const SacAtNeck neck = propose_neck(surface, dome);
         const SacMeasures m = measure_sac(neck.sac, neck.parent_diameter);
         return {{"neck_diameter_mm", m.neck_diameter},
                 {"height_mm", m.height},

@@ -14,6 +14,7 @@
 #include "meshing/tetrahedra/tetrahedralize.h"
 #include "tests/flow/planted_flow.h"
 #include "tests/support/program.h"
+#include "tests/support/sac_on_tube.h"
 #include "tests/support/shapes.h"
 #include "workbench/flow/methods_text.h"
 #include "workbench/flow/results_files.h"
@@ -32,6 +33,20 @@ constexpr double kRadius = 2.0, kLength = 8.0;  // [mm]
 const VolumeMesh& tube_mesh() {
     static const VolumeMesh mesh = tetrahedralized(fine_tube(kRadius, kLength, 18), {}).mesh;
     return mesh;
+}
+
+/// A vessel along x with a sac; its rounded ends are its openings.
+Surface sac_between_openings() {
+    const Surface surface = sac_on_tube(0.3);
+    PatchLabels labels;
+    for (const auto& [a, b, c] : surface.triangles()) {
+        const double x =
+            (surface.points()[a].x() + surface.points()[b].x() + surface.points()[c].x()) / 3.0;
+        labels.push_back(x < -9.0 ? 1 : x > 9.0 ? 2 : 0);
+    }
+    return surface.with_patches(
+        labels,
+        {{"wall", PatchKind::Wall}, {"inlet", PatchKind::Inlet}, {"outlet_1", PatchKind::Outlet}});
 }
 
 /// A wall shear stress [Pa] along +z: low in the first quarter, growing behind it.
@@ -115,8 +130,8 @@ SCENARIO("Beyond the ends that were made, the wall is not the vessel's own", "[f
     const std::string folder = solved_case(1000.0);
     constexpr double half_a_diameter = kRadius, cut = 7.0;
     write_flow_record(
-        folder, tube_mesh(), {}, "",
-        {{.centre = Vec3(0, 0, cut), .outward = Vec3(0, 0, 1), .diameter = 2 * kRadius}});
+        folder, tube_mesh(), {},
+        {.ends = {{.centre = Vec3(0, 0, cut), .outward = Vec3(0, 0, 1), .diameter = 2 * kRadius}}});
     double area = 0.0;
     for (std::size_t b = 0; b < tube_mesh().boundary.size(); ++b) {
         const Triangle& triangle = tube_mesh().boundary[b];
@@ -129,6 +144,49 @@ SCENARIO("Beyond the ends that were made, the wall is not the vessel's own", "[f
     const FlowResults results = results_in(folder);
     CHECK(results.shear.area == Approx(area).epsilon(kTolerance));
     CHECK(results.shear.largest < 1.0 + cut - half_a_diameter);
+}
+
+SCENARIO("A sac's wall and its parent's have figures of their own", "[flow][results]") {
+    constexpr double density = 1000.0, neck = 2.2, still = 0.2, flushed = 2.0;
+    const VolumeMesh mesh = tetrahedralized(sac_between_openings(), {}).mesh;
+    const std::string folder = temporary_folder() + "/case";
+    write_case(folder, mesh, {.density = density});
+    const SacNeck marked{sac_dome(), {Vec3(0, 0, neck), Vec3::UnitZ()}};
+    write_flow_record(folder, mesh, {.density = density}, {.neck = RecordedNeck{.neck = marked}});
+    PlantedFlow flow;
+    flow.wall_shear = [&](const Vec3& place) {
+        return Vec3(-(place.z() > neck ? still : flushed) / density, 0.0, 0.0);
+    };
+    plant_flow(folder, mesh, flow);
+    const FlowResults results = results_in(folder);
+    REQUIRE(results.regions.size() == 2);
+    const RegionShear &sac = results.regions[0], &parent = results.regions[1];
+    CHECK(sac.region == "sac");
+    CHECK(sac.shear.mean == Approx(still).epsilon(0.01));
+    CHECK(sac.shear.area == Approx(sphere_above(neck).dome_area).epsilon(0.02));
+    CHECK(sac.shear.low_area == Approx(sac.shear.area).epsilon(0.01));
+    CHECK(parent.region == "parent");
+    CHECK(parent.shear.mean == Approx(flushed).epsilon(0.02));
+    const nlohmann::ordered_json figures = results_json(results)["figures"];
+    CHECK(figures["sac_wall_shear_mean_pa"] == sac.shear.mean);
+    CHECK(figures["parent_wall_shear_max_pa"] == parent.shear.largest);
+}
+
+SCENARIO("A marked neck is kept with the case; without its sac there are no regions",
+         "[flow][results]") {
+    const std::string folder = solved_case(1000.0);
+    const SacNeck neck{Vec3(1, 2, 3), {Vec3(0.1, 0.2, 0.3), Vec3(0, 0, 1)}};
+    write_flow_record(folder, tube_mesh(), {}, {.neck = RecordedNeck{.neck = neck, .reach = 1.5}});
+    const auto kept = read_flow_record(folder).neck;
+    REQUIRE(kept);
+    CHECK(kept->neck.dome == neck.dome);
+    CHECK(kept->neck.plane.point == neck.plane.point);
+    CHECK(kept->neck.plane.normal == neck.plane.normal);
+    CHECK(kept->reach == 1.5);
+    REQUIRE(kept->inlet);
+    const FlowResults results = results_in(folder);
+    CHECK(results.regions.empty());
+    CHECK(results.shear.mean > 0.0);
 }
 
 SCENARIO("What flows in and not out is the imbalance", "[flow][results]") {

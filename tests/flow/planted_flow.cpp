@@ -74,7 +74,7 @@ void write_table(const std::string& folder, const std::string& name, const std::
 void write_case(const std::string& folder, const VolumeMesh& mesh,
                 const CfdParameters& parameters) {
     write_openfoam_case(folder, mesh, parameters);
-    write_flow_record(folder, mesh, parameters, "a test");
+    write_flow_record(folder, mesh, parameters, {.provenance = "a test"});
 }
 
 void plant_flow(const std::string& folder, const VolumeMesh& mesh, const PlantedFlow& flow) {

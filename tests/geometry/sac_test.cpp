@@ -1,13 +1,17 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include <catch2/catch.hpp>
 
+#include "geometry/formats/surface_file.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/vessel/repair/repair.h"
+#include "geometry/vessel/sac/likely_sacs.h"
 #include "geometry/vessel/sac/neck_plane.h"
 #include "geometry/vessel/sac/sac_measures.h"
-#include "tests/support/iso_surface.h"
+#include "geometry/vessel/sac/sac_regions.h"
+#include "tests/support/sac_on_tube.h"
 #include "tests/support/shapes.h"
 
 using namespace vesselbench;
@@ -31,20 +35,6 @@ SacMeasures measured_above(const Surface& surface, const Plane& plane, double pa
     REQUIRE(sac);
     return measure_sac(*sac, parent);
 }
-
-/// The sphere of the idealised bifurcation of ../shared/data, on a straight tube along x.
-constexpr double kSac = 2.502, kTube = 1.75, kMiddle = 3.75;  // [mm]
-
-Surface sphere_on_tube(double cell) {
-    const auto shape = [](const Vec3& x) {
-        return std::min(capsule(x, Vec3(-9, 0, 0), Vec3(9, 0, 0), kTube),
-                        (x - Vec3(0, 0, kMiddle)).norm() - kSac);
-    };
-    return repair(iso_surface(shape, {Vec3(-11.3, -3.1, -2.3), Vec3(11.3, 3.1, 6.9)}, cell))
-        .surface;
-}
-
-const Vec3 kDome(0, 0, kMiddle + kSac);
 
 }  // namespace
 
@@ -140,23 +130,113 @@ SCENARIO("A plane cuts off a sac, or nothing", "[geometry][sac]") {
 }
 
 SCENARIO("The neck of a sphere on a tube is where the tube begins", "[geometry][sac]") {
-    const ProposedNeck neck = propose_neck(sphere_on_tube(0.1), kDome);
+    const SacAtNeck neck = propose_neck(sac_on_tube(0.1), sac_dome());
     const SacMeasures m = measure_sac(neck.sac, neck.parent_diameter);
-    const double up = kMiddle - kTube, radius = std::sqrt(kSac * kSac - up * up);
-    const double height = kSac + up;
+    const SphereAbove sphere = sphere_above(kSacTube);
     CHECK(neck.sac.neck.normal.z() > std::cos(3.0 * kPi / 180.0));
-    CHECK(m.neck_diameter == Approx(2.0 * radius).epsilon(0.04));
-    CHECK(m.height == Approx(height).epsilon(0.02));
-    CHECK(m.width == Approx(2.0 * kSac).epsilon(0.01));
-    CHECK(m.volume == Approx(kPi * height * height * (3.0 * kSac - height) / 3.0).epsilon(0.02));
-    CHECK(m.dome_area == Approx(2.0 * kPi * kSac * height).epsilon(0.02));
-    CHECK(m.aspect_ratio == Approx(0.5 * height / radius).epsilon(0.05));
-    CHECK(m.bottleneck_factor == Approx(kSac / radius).epsilon(0.05));
-    CHECK(m.parent_diameter == Approx(2.0 * kTube).epsilon(0.03));
-    CHECK(m.size_ratio == Approx(0.5 * height / kTube).epsilon(0.04));
+    CHECK(m.neck_diameter == Approx(2.0 * sphere.neck_radius).epsilon(0.04));
+    CHECK(m.height == Approx(sphere.height).epsilon(0.02));
+    CHECK(m.width == Approx(2.0 * kSacRadius).epsilon(0.01));
+    CHECK(m.volume == Approx(sphere.volume).epsilon(0.02));
+    CHECK(m.dome_area == Approx(sphere.dome_area).epsilon(0.02));
+    CHECK(m.aspect_ratio == Approx(0.5 * sphere.height / sphere.neck_radius).epsilon(0.05));
+    CHECK(m.bottleneck_factor == Approx(kSacRadius / sphere.neck_radius).epsilon(0.05));
+    CHECK(m.parent_diameter == Approx(2.0 * kSacTube).epsilon(0.03));
+    CHECK(m.size_ratio == Approx(0.5 * sphere.height / kSacTube).epsilon(0.04));
+}
+
+SCENARIO("A sac beyond a known plane has the figures of its form", "[geometry][sac]") {
+    const auto file = shared_data("surfaces/v4a_ideal_bifurcation_aneurysm.stl");
+    if (file.empty()) return;
+    // A sphere about (0, 0, 13.51) on a T of tubes: arms along x of radius 1.5 at z = 10, a stem of
+    // radius 1.75. A fillet joins them below z = 11.9. All ends are open.
+    constexpr double middle = 13.51, cut = 12.0, arms = 3.0;
+    const Surface surface = repair(read_surface(file).surface).surface;
+    const SacNeck known{Vec3(0, 0, middle + kSacRadius), {Vec3(0, 0, cut), Vec3::UnitZ()}};
+    const SacAtNeck neck = sac_beyond(surface, known);
+    const SacMeasures m = measure_sac(neck.sac, neck.parent_diameter);
+    const SphereAbove sphere = sphere_above(kSacMiddle + cut - middle);
+    const double a = sphere.neck_radius;
+    CHECK(m.dome_area == Approx(sphere.dome_area).epsilon(0.01));
+    CHECK(m.neck_area == Approx(kPi * a * a).epsilon(0.01));
+    CHECK(m.volume == Approx(sphere.volume).epsilon(0.01));
+    CHECK(m.neck_diameter == Approx(2.0 * a).epsilon(0.01));
+    CHECK(m.neck_width == Approx(2.0 * a).epsilon(0.01));
+    CHECK(m.neck_hydraulic == Approx(2.0 * a).epsilon(0.01));
+    CHECK(m.height == Approx(sphere.height).epsilon(0.01));
+    CHECK(m.length == Approx(sphere.height).epsilon(0.01));
+    CHECK(m.width == Approx(2.0 * kSacRadius).epsilon(0.01));
+    CHECK(m.diameter == Approx(2.0 * kSacRadius).epsilon(0.01));
+    CHECK(m.parent_diameter == Approx(arms).epsilon(0.01));
+    CHECK(m.aspect_ratio == Approx(0.5 * sphere.height / a).epsilon(0.01));
+    CHECK(m.size_ratio == Approx(sphere.height / arms).epsilon(0.01));
+    CHECK(m.bottleneck_factor == Approx(kSacRadius / a).epsilon(0.01));
+    CHECK(m.bulge_location == Approx((middle - cut) / sphere.height).epsilon(0.03));
+    CHECK(m.undulation == Approx(0.0).margin(0.01));
+    const double off =
+        1.0 - std::cbrt(18.0 * kPi) * std::pow(sphere.volume, 2.0 / 3.0) / sphere.dome_area;
+    CHECK(m.ellipticity == Approx(off).epsilon(0.01));
+    CHECK(m.nonsphericity == Approx(off).epsilon(0.01));
+    THEN("the stem is the parent, and the arms are its daughters") {
+        const SacRegions regions = sac_regions(surface, known);
+        REQUIRE(regions.vessels.size() == 3);
+        CHECK(std::ranges::count(regions.vessels, SacRegion::Parent, &NeckVessel::region) == 1);
+        for (const NeckVessel& vessel : regions.vessels)
+            CHECK(vessel.diameter == Approx(arms).epsilon(0.06));
+        for (TriangleId t = 0; t < surface.triangle_count(); ++t) {
+            const Vec3 x = surface.points()[surface.triangles()[t][0]];
+            if (regions.triangles[t] == SacRegion::Sac) CHECK(x.z() > cut - 0.3);
+            if (x.z() > cut + 0.3) CHECK(regions.triangles[t] == SacRegion::Sac);
+            if (std::abs(x.x()) > a + arms + 0.3)
+                CHECK(regions.triangles[t] == SacRegion::Elsewhere);
+            if (x.z() < 8.0) CHECK(regions.triangles[t] != SacRegion::Daughters);
+        }
+    }
+    THEN("an arm that leads to the inlet is the parent") {
+        const SacRegions regions =
+            sac_regions(surface, known, {.reach = 1.0, .inlet = Vec3(-7.5, 0, 10)});
+        for (TriangleId t = 0; t < surface.triangle_count(); ++t)
+            if (regions.triangles[t] == SacRegion::Parent)
+                CHECK(surface.points()[surface.triangles()[t][0]].x() < 0.5 * arms);
+    }
+    THEN("a plane that leaves the dome below it, or takes a vessel with it, is refused") {
+        for (const double z : {middle + kSacRadius + 0.1, 10.0, -3.0})
+            CHECK_THROWS_AS(sac_beyond(surface, {known.dome, {Vec3(0, 0, z), Vec3::UnitZ()}}),
+                            AlgorithmFailure);
+    }
+}
+
+SCENARIO("The vessel on both sides of a sac is its parent", "[geometry][sac]") {
+    const Surface surface = sac_on_tube(0.15);
+    const SacNeck neck{sac_dome(), {Vec3(0, 0, kSacTube), Vec3::UnitZ()}};
+    const double reach = GENERATE(0.5, 1.0);
+    const SacRegions regions = sac_regions(surface, neck, {.reach = reach});
+    REQUIRE(regions.vessels.size() == 2);
+    const double edge = 0.3, neck_radius = sphere_above(kSacTube).neck_radius;
+    for (TriangleId t = 0; t < surface.triangle_count(); ++t) {
+        const Vec3 x = surface.points()[surface.triangles()[t][0]];
+        const double along = std::abs(x.x()) - neck_radius;
+        CHECK(regions.triangles[t] != SacRegion::Daughters);
+        if (x.z() > kSacTube + edge) CHECK(regions.triangles[t] == SacRegion::Sac);
+        if (along > reach * 2.0 * kSacTube + edge)
+            CHECK(regions.triangles[t] == SacRegion::Elsewhere);
+        if (std::abs(x.y()) < edge && x.z() > 0.0 && x.z() < kSacTube + 0.01 && along > edge &&
+            along < reach * 2.0 * kSacTube - edge)
+            CHECK(regions.triangles[t] == SacRegion::Parent);
+    }
 }
 
 SCENARIO("A sac's neck is not found where there is no sac", "[geometry][sac]") {
     CHECK_THROWS_AS(propose_neck(closed_tube(1.75, 18.0, 24, 60), Vec3(0, 0, 18)),
                     AlgorithmFailure);
+    const auto tips = tips_by_sac_odds(closed_tube(1.75, 18.0, 24, 60), std::nullopt);
+    CHECK(std::ranges::none_of(tips, is_likely_sac));
+}
+
+SCENARIO("The sac of a tube is the likeliest of its blind ends", "[geometry][sac]") {
+    const auto tips = tips_by_sac_odds(sac_on_tube(0.15), std::nullopt);
+    REQUIRE(tips.size() == 3);
+    CHECK(is_likely_sac(tips[0]));
+    CHECK((tips[0].tip - sac_dome()).norm() < kSacRadius);
+    CHECK_FALSE(is_likely_sac(tips[1]));
 }

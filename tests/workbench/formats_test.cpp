@@ -58,6 +58,14 @@ KeptProject wall_project() {
         .newest = "14"};
 }
 
+KeptProject sac_project() {
+    return {
+        .name = "2-sac",
+        .edits = {"1.1 load-surface ", "2.2 mark-neck ", "3.1 subdivide rp", "4.1 mark-neck rp"},
+        .middle = "3",
+        .newest = "4"};
+}
+
 KeptProject purposes_project() {
     return {.name = "2-purposes",
             .edits = {"1.1 load-surface ", "2.1 repair ", "3.1 clip-opening cfd",
@@ -70,7 +78,7 @@ KeptProject purposes_project() {
 }
 
 std::vector<KeptProject> kept_projects() {
-    return {image_project(), wall_project(), purposes_project()};
+    return {image_project(), wall_project(), sac_project(), purposes_project()};
 }
 
 /// A stored project as a file in a folder of its own.
@@ -262,6 +270,10 @@ SCENARIO("The kept project of an image opens, undoes, replays and goes on",
 
 SCENARIO("The kept project of a wall opens, undoes, replays and goes on", "[workbench][formats]") {
     check_kept(wall_project());
+}
+
+SCENARIO("The kept project of a sac opens, undoes, replays and goes on", "[workbench][formats]") {
+    check_kept(sac_project());
 }
 
 SCENARIO("The kept project of both purposes opens, undoes, replays and goes on",

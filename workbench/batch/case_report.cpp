@@ -24,7 +24,7 @@ bool has_verdicts(const fs::path& project) {
 }  // namespace
 
 std::span<const TableFigure> table_figures() {
-    static const std::array<TableFigure, 8> figures = {{
+    static const std::array<TableFigure, 24> figures = {{
         {"triangles", "triangles", "", "/quality/after/triangles", 0},
         {"volume_mm3", "volume", "mm\u00B3", "/quality/after/volume", 1},
         {"area_mm2", "area", "mm\u00B2", "/quality/after/area", 1},
@@ -36,6 +36,23 @@ std::span<const TableFigure> table_figures() {
          "/volume_mesh/smallest_dihedral_deg", 1},
         {"thinnest_place_mm", "thinnest place", "mm", "/print/smallest_wall_distance/distance_mm",
          2},
+        {"dome_area_mm2", "dome area", "mm\u00B2", "/sac/dome_area_mm2", 1},
+        {"neck_area_mm2", "neck area", "mm\u00B2", "/sac/neck_area_mm2", 1},
+        {"sac_volume_mm3", "sac volume", "mm\u00B3", "/sac/volume_mm3", 1},
+        {"neck_diameter_mm", "neck diameter", "mm", "/sac/neck_diameter_mm", 2},
+        {"neck_width_mm", "neck width", "mm", "/sac/neck_width_mm", 2},
+        {"neck_hydraulic_diameter_mm", "hydraulic neck diameter", "mm",
+         "/sac/neck_hydraulic_diameter_mm", 2},
+        {"sac_height_mm", "sac height", "mm", "/sac/height_mm", 2},
+        {"sac_length_mm", "sac length", "mm", "/sac/length_mm", 2},
+        {"sac_width_mm", "sac width", "mm", "/sac/width_mm", 2},
+        {"parent_diameter_mm", "parent diameter", "mm", "/sac/parent_diameter_mm", 2},
+        {"aspect_ratio", "aspect ratio", "", "/sac/aspect_ratio", 2},
+        {"size_ratio", "size ratio", "", "/sac/size_ratio", 2},
+        {"bottleneck_factor", "bottleneck factor", "", "/sac/bottleneck_factor", 2},
+        {"undulation", "undulation", "", "/sac/undulation", 3},
+        {"ellipticity", "ellipticity", "", "/sac/ellipticity", 3},
+        {"nonsphericity", "non-sphericity", "", "/sac/nonsphericity", 3},
     }};
     return figures;
 }

@@ -29,7 +29,8 @@ enum class Meaning {
     Roles,     ///< of the openings of planes, with their names
     Doubts,    ///< true: the likelier choice is taken where the operation would ask
     Unit,      ///< of the model's lengths: another one moves every place
-    Dabs       ///< of a brush
+    Dabs,      ///< of a brush
+    Neck       ///< direction into a sac at its neck, of an operation with its Place and Tip
 };
 
 /// An argument without which another one has no effect: "distance=margin".

@@ -120,15 +120,17 @@ void undo_edit(const StepBackOptions& options);
 void redo_edit(const StepBackOptions& options);
 
 struct MeasureOptions {
-    std::string surface;
+    std::string surface;              ///< or a project
+    std::string variant;              ///< of a project; empty: variant_of()
     std::string reference;            ///< empty: none
     std::optional<double> histogram;  ///< bin width of the vertices' distances [mm]; none: no bins
     std::string units;                ///< of both files; empty: mm
     bool json = false;
 };
 
-/// Prints all measures of a surface, and its distance to a reference.
-void measure_surface(const MeasureOptions& options);
+/// Prints all measures of a surface, and its distance to a reference. Of a project its model, whose
+/// pending edits run first, and the sac whose neck is marked.
+void measure_surface(const MeasureOptions& options, const Progress& progress);
 
 struct PictureArguments {
     std::string surface;        ///< or a project

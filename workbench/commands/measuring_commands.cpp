@@ -58,14 +58,17 @@ void add_measure(CommandLine& line) {
     const auto options = std::make_shared<MeasureOptions>();
     CLI::App& command =
         add_command(line, "measure", "Measure a surface, optionally against a reference surface",
-                    [options] { return measure_surface(*options), 0; });
-    command.add_option("SURFACE", options->surface, "Surface file")->required()->type_name("");
+                    [options, &line] { return measure_surface(*options, line.progress), 0; });
+    command.add_option("SURFACE", options->surface, "Surface file, or a project (.vbench)")
+        ->required()
+        ->type_name("");
     command.add_option("REFERENCE", options->reference, "Surface file to compare with")
         ->type_name("");
     command
         .add_option("--histogram", options->histogram,
                     "Count the vertices by their distance from the reference, in bins this wide")
         ->type_name("MM");
+    add_variant(command, options->variant, "Variant of a project to measure");
     command
         .add_option("--units", options->units, "Unit of the files: mm, cm, m or um (default: mm)")
         ->type_name("UNIT");

@@ -25,6 +25,7 @@
 #include "workbench/prepare/acceptance_gate.h"
 #include "workbench/prepare/case_files.h"
 #include "workbench/prepare/end_settings.h"
+#include "workbench/prepare/marked_sac.h"
 #include "workbench/prepare/prepared_purposes.h"
 #include "workbench/prepare/vessel_question.h"
 #include "workbench/report/log_json.h"
@@ -215,7 +216,8 @@ void export_project(const ExportArguments& arguments, const Progress& progress) 
         .flow = flow_in_vessel(flow.parameters(), log),
         .provenance = provenance(session, variant, review),
         .shown = shown_contents(arguments, session, variant, scene, progress.part(0.6, 0.7)),
-        .ends = made_ends(session, variant, progress.silent())};
+        .ends = made_ends(session, variant, progress.silent()),
+        .neck = recorded_neck(log)};
     PendingFiles files;
     export_scene(files, arguments.file, scene, options, progress.part(0.7, 1.0));
     progress.check_cancelled();

@@ -98,7 +98,10 @@ std::vector<ExportFormat> joined_rows() {
                                       const ExportOptions& options, const Progress& progress) {
                  const VolumeMesh& mesh = volume_mesh_of(scene);
                  write(path, mesh, options.flow, progress, options.provenance);
-                 write_flow_record(path, mesh, options.flow, options.provenance, options.ends);
+                 write_flow_record(path, mesh, options.flow,
+                                   {.provenance = options.provenance,
+                                    .ends = options.ends,
+                                    .neck = options.neck});
              }});
     return all;
 }

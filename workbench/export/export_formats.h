@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "geometry/kernel/progress.h"
 #include "meshing/products/cfd_parameters.h"
 #include "workbench/case/scene.h"
+#include "workbench/flow/flow_record.h"
 #include "workbench/review/viewer_page.h"
 #include "workbench/session/source_counterpart.h"
 
@@ -19,6 +21,7 @@ struct ExportOptions {
     std::string provenance = {};     ///< line for the file's header, as provenance() makes it
     ViewerContents shown = {};       ///< of models for viewers: colour; of pages all of it
     std::vector<MadeEnd> ends = {};  ///< of the model, for a solver's case
+    std::optional<RecordedNeck> neck = std::nullopt;  ///< of the model's sac, for the same
 };
 
 /// A format that a scene can be exported in.

@@ -7,6 +7,7 @@
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/whole_file.h"
+#include "geometry/vessel/sac/sac_regions.h"
 #include "meshing/products/openfoam_case.h"
 #include "meshing/products/openfoam_mesh.h"
 #include "workbench/case/json_fields.h"
@@ -47,11 +48,10 @@ RecordedOpening recorded(const PatchMeasures& patch, const FlowSummary& summary)
 }
 
 FlowRecord flow_record_of(const fs::path& folder, const VolumeMesh& mesh,
-                          const CfdParameters& parameters, const std::string& provenance,
-                          const std::vector<MadeEnd>& ends) {
+                          const CfdParameters& parameters, const FlowOrigin& origin) {
     const Surface surface = boundary_surface(mesh);
     const FlowSummary summary = flow_summary(surface, parameters);
-    FlowRecord record{.provenance = provenance,
+    FlowRecord record{.provenance = origin.provenance,
                       .mesh = mesh_digest(folder),
                       .cells = mesh.cell_count(),
                       .bounds = bounds(mesh.points),
@@ -62,13 +62,25 @@ FlowRecord flow_record_of(const fs::path& folder, const VolumeMesh& mesh,
                       .parabolic = parameters.profile == InflowProfile::Parabolic,
                       .walls = {},
                       .openings = {},
-                      .ends = ends};
+                      .ends = origin.ends,
+                      .neck = origin.neck};
+    if (record.neck) record.neck->inlet = inlet_place(surface);
     for (const PatchMeasures& patch : measure_patches(surface)) {
         if (patch.kind == PatchKind::Wall) record.walls.push_back(foam_word(patch.name));
         if (patch.kind == PatchKind::Inlet || patch.kind == PatchKind::Outlet)
             record.openings.push_back(recorded(patch, summary));
     }
     return record;
+}
+
+Json neck_json(const RecordedNeck& recorded) {
+    const SacNeck& neck = recorded.neck;
+    Json json = {{"dome_mm", point_json(neck.dome)},
+                 {"at_mm", point_json(neck.plane.point)},
+                 {"normal", point_json(neck.plane.normal)},
+                 {"reach", recorded.reach}};
+    if (recorded.inlet) json["inlet_mm"] = point_json(*recorded.inlet);
+    return json;
 }
 
 Json to_json(const FlowRecord& record) {
@@ -87,18 +99,20 @@ Json to_json(const FlowRecord& record) {
         if (opening.reynolds) row["reynolds"] = *opening.reynolds;
         openings.push_back(std::move(row));
     }
-    return {{"provenance", record.provenance},
-            {"mesh_sha256", record.mesh},
-            {"cells", record.cells},
-            {"bounds_mm", {least.x(), least.y(), least.z(), most.x(), most.y(), most.z()}},
-            {"density_kg_m3", record.density},
-            {"viscosity_pa_s", record.viscosity},
-            {"viscosity_model", record.carreau ? "Carreau" : "Newtonian"},
-            {"outflows_given", record.given_outflows},
-            {"profile", record.parabolic ? "parabolic" : "plug"},
-            {"walls", record.walls},
-            {"openings", openings},
-            {"ends", ends}};
+    Json json = {{"provenance", record.provenance},
+                 {"mesh_sha256", record.mesh},
+                 {"cells", record.cells},
+                 {"bounds_mm", {least.x(), least.y(), least.z(), most.x(), most.y(), most.z()}},
+                 {"density_kg_m3", record.density},
+                 {"viscosity_pa_s", record.viscosity},
+                 {"viscosity_model", record.carreau ? "Carreau" : "Newtonian"},
+                 {"outflows_given", record.given_outflows},
+                 {"profile", record.parabolic ? "parabolic" : "plug"},
+                 {"walls", record.walls},
+                 {"openings", openings},
+                 {"ends", ends}};
+    if (record.neck) json["neck"] = neck_json(*record.neck);
+    return json;
 }
 
 RecordedOpening opening_from(const Json& json, const std::string& place) {
@@ -122,6 +136,18 @@ MadeEnd made_end_from(const Json& json, const std::string& place) {
             .diameter = fields.required<double>("diameter_mm")};
 }
 
+RecordedNeck neck_from(const Json& json, const std::string& place) {
+    JsonFields fields(json, place);
+    const auto point = [&](const char* key) {
+        return vector_from(fields.required<std::array<double, 3>>(key));
+    };
+    RecordedNeck recorded{.neck = {point("dome_mm"), {point("at_mm"), point("normal")}},
+                          .reach = fields.required<double>("reach")};
+    if (const auto inlet = fields.optional<std::array<double, 3>>("inlet_mm"))
+        recorded.inlet = vector_from(*inlet);
+    return recorded;
+}
+
 /// The entries of a list, each read by `read`; none if there is no list.
 template <class Entry>
 std::vector<Entry> list_from(JsonFields& fields, const char* key,
@@ -136,18 +162,20 @@ std::vector<Entry> list_from(JsonFields& fields, const char* key,
 FlowRecord flow_record_from(const Json& json) {
     JsonFields fields(json, kFlowRecordFile);
     const auto box = fields.required<std::array<double, 6>>("bounds_mm");
-    const FlowRecord record{.provenance = fields.optional<std::string>("provenance").value_or(""),
-                            .mesh = fields.required<std::string>("mesh_sha256"),
-                            .cells = fields.required<std::size_t>("cells"),
-                            .bounds = {Vec3(box[0], box[1], box[2]), Vec3(box[3], box[4], box[5])},
-                            .density = fields.required<double>("density_kg_m3"),
-                            .viscosity = fields.required<double>("viscosity_pa_s"),
-                            .carreau = fields.required<std::string>("viscosity_model") == "Carreau",
-                            .given_outflows = fields.required<bool>("outflows_given"),
-                            .parabolic = fields.required<std::string>("profile") == "parabolic",
-                            .walls = fields.required<std::vector<std::string>>("walls"),
-                            .openings = list_from(fields, "openings", &opening_from),
-                            .ends = list_from(fields, "ends", &made_end_from)};
+    FlowRecord record{.provenance = fields.optional<std::string>("provenance").value_or(""),
+                      .mesh = fields.required<std::string>("mesh_sha256"),
+                      .cells = fields.required<std::size_t>("cells"),
+                      .bounds = {Vec3(box[0], box[1], box[2]), Vec3(box[3], box[4], box[5])},
+                      .density = fields.required<double>("density_kg_m3"),
+                      .viscosity = fields.required<double>("viscosity_pa_s"),
+                      .carreau = fields.required<std::string>("viscosity_model") == "Carreau",
+                      .given_outflows = fields.required<bool>("outflows_given"),
+                      .parabolic = fields.required<std::string>("profile") == "parabolic",
+                      .walls = fields.required<std::vector<std::string>>("walls"),
+                      .openings = list_from(fields, "openings", &opening_from),
+                      .ends = list_from(fields, "ends", &made_end_from)};
+    if (const Json* neck = fields.child("neck"))
+        record.neck = neck_from(*neck, fields.place_of("neck"));
     if (record.walls.empty() || record.openings.empty())
         throw InvalidInput(std::string(kFlowRecordFile) + " lists no wall, or no openings");
     return record;
@@ -156,9 +184,8 @@ FlowRecord flow_record_from(const Json& json) {
 }  // namespace
 
 void write_flow_record(const fs::path& folder, const VolumeMesh& mesh,
-                       const CfdParameters& parameters, const std::string& provenance,
-                       const std::vector<MadeEnd>& ends) {
-    const FlowRecord record = flow_record_of(folder, mesh, parameters, provenance, ends);
+                       const CfdParameters& parameters, const FlowOrigin& origin) {
+    const FlowRecord record = flow_record_of(folder, mesh, parameters, origin);
     write_file(folder / kFlowRecordFile, text_from_json(to_json(record), 2) + "\n");
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geometry/kernel/measure.h"
+#include "geometry/vessel/sac/neck_plane.h"
 #include "meshing/products/cfd_parameters.h"
 #include "meshing/tetrahedra/volume_mesh.h"
 #include "workbench/session/source_counterpart.h"
@@ -22,6 +23,20 @@ struct RecordedOpening {
     double diameter = 0.0;                          ///< of a disc of that area [mm]
     std::optional<double> flow = std::nullopt;      ///< given, of an inlet [cm^3/s]
     std::optional<double> reynolds = std::nullopt;  ///< of an inlet [-]
+};
+
+/// The neck of the model's sac, for figures by region (sac_regions).
+struct RecordedNeck {
+    SacNeck neck;
+    double reach = 1.0;                        ///< as of SacRegionOptions
+    std::optional<Vec3> inlet = std::nullopt;  ///< [mm]
+};
+
+/// Where a solver's case comes from.
+struct FlowOrigin {
+    std::string provenance = {};                      ///< of the model; empty: not known
+    std::vector<MadeEnd> ends = {};                   ///< where the vessel was cut and extended
+    std::optional<RecordedNeck> neck = std::nullopt;  ///< none: no sac is marked
 };
 
 /// What a solver's case is of: flow.json in its folder, for whoever runs it or reads its results.
@@ -40,14 +55,13 @@ struct FlowRecord {
     /// Where the vessel was cut and extended: beyond them, the wall is not its own. Empty: not
     /// known.
     std::vector<MadeEnd> ends;
+    std::optional<RecordedNeck> neck = std::nullopt;  ///< none: no sac is marked
 };
 
 /// Writes flow.json into the folder of a case, which is complete otherwise.
-/// \param ends where the vessel was cut and extended
 /// \throw IoError, AlgorithmFailure as flow_summary()
 void write_flow_record(const std::filesystem::path& folder, const VolumeMesh& mesh,
-                       const CfdParameters& parameters, const std::string& provenance,
-                       const std::vector<MadeEnd>& ends = {});
+                       const CfdParameters& parameters, const FlowOrigin& origin);
 
 /// \throw InvalidInput if the case has none, or a damaged one
 [[nodiscard]] FlowRecord read_flow_record(const std::filesystem::path& folder);

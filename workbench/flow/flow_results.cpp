@@ -10,6 +10,7 @@
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/statistics.h"
 #include "geometry/kernel/whole_file.h"
+#include "geometry/vessel/sac/sac_regions.h"
 #include "workbench/flow/flow_run.h"
 
 namespace vesselbench {
@@ -106,6 +107,28 @@ std::string solver_of(const fs::path& folder) {
     return "OpenFOAM " + log.substr(begin, log.find_first_not_of("0123456789", begin) - begin);
 }
 
+/// Empty if no neck was marked, or the sac is not on this wall.
+std::vector<RegionShear> shear_by_region(const FlowWall& wall,
+                                         const std::optional<RecordedNeck>& marked) {
+    if (!marked) return {};
+    SacRegions found;
+    try {
+        found = sac_regions(wall.surface, marked->neck,
+                            {.reach = marked->reach, .inlet = marked->inlet});
+    } catch (const AlgorithmFailure&) {
+        return {};
+    }
+    std::vector<RegionShear> regions;
+    for (const SacRegion region : {SacRegion::Sac, SacRegion::Parent, SacRegion::Daughters}) {
+        std::vector<double> areas = wall.own_areas;
+        for (std::size_t t = 0; t < areas.size(); ++t)
+            if (found.triangles[t] != region) areas[t] = 0.0;
+        if (std::ranges::max(areas) > 0.0)
+            regions.push_back({to_string(region), shear_figures(magnitudes(wall.shear), areas)});
+    }
+    return regions;
+}
+
 std::vector<OpeningFigures> opening_figures(const FlowResults& results) {
     std::vector<OpeningFigures> openings;
     for (const RecordedOpening& recorded : results.flow.record.openings) {
@@ -171,6 +194,7 @@ FlowResults read_flow_results(const FlowCase& flow) {
                         .solver = solver_of(flow.folder),
                         .wall = flow_wall(flow, *time),
                         .shear = {},
+                        .regions = {},
                         .openings = {}};
     require_same_wall(flow, results.wall);
     end_history(results.history, *time);
@@ -181,6 +205,7 @@ FlowResults read_flow_results(const FlowCase& flow) {
     results.settling = settling_of(results.history, flow.record);
     results.converged = results.settling.settled || has_reached_residuals(flow.folder);
     results.shear = shear_figures(magnitudes(results.wall.shear), results.wall.own_areas);
+    results.regions = shear_by_region(results.wall, flow.record.neck);
     results.openings = opening_figures(results);
     results.pressure_drop = pressure_drop(results.history, flow.record);
     results.imbalance = imbalance_of(results);

@@ -31,6 +31,12 @@ struct ShearFigures {
 /// in atherosclerosis", JAMA 282, 1999: below 4 dyn/cm^2 endothelium is prone to atherosclerosis.
 inline constexpr double kLowShear = 0.4;
 
+/// The same of a region of a sac's vessel.
+struct RegionShear {
+    std::string region;  ///< "sac", "parent", "daughters"
+    ShearFigures shear;
+};
+
 struct OpeningFigures {
     RecordedOpening recorded;
     double flow = 0.0;  ///< in its own direction: in through an inlet, out of an outlet [cm^3/s]
@@ -47,6 +53,7 @@ struct FlowResults {
     std::string solver;      ///< "OpenFOAM 1912"; "OpenFOAM" where its log is missing
     FlowWall wall;
     ShearFigures shear;  ///< of the vessel's own wall: without what was cut and extended
+    std::vector<RegionShear> regions;  ///< with a wall, where a sac's neck was marked
     std::vector<OpeningFigures> openings;
     double pressure_drop = 0.0;  ///< [Pa]
     double imbalance = 0.0;      ///< what flows in and not out, as a fraction of the inflow [-]

@@ -52,6 +52,25 @@ Json opening_row(const OpeningFigures& opening) {
     return row;
 }
 
+std::string definition_of(const std::string& region) {
+    if (region == "sac") return "beyond the marked neck";
+    return region == "parent" ? "the vessel with the sac, near its neck"
+                              : "the vessels into which the parent parts near the neck";
+}
+
+void add_region(const RegionShear& region, std::vector<FlowFigure>& figures) {
+    const auto& [name, shear] = region;
+    const std::string where = definition_of(name);
+    figures.push_back(
+        {name + "_wall_area_mm2", name + ": area of its wall", "mm^2", shear.area, where});
+    figures.push_back(
+        {name + "_wall_shear_mean_pa", name + ": mean wall shear stress", "Pa", shear.mean, where});
+    figures.push_back({name + "_wall_shear_max_pa", name + ": largest wall shear stress", "Pa",
+                       shear.largest, where});
+    figures.push_back({name + "_low_shear_area_percent", name + ": share of low shear", "%",
+                       kPercent * shear.low_area / shear.area, where});
+}
+
 }  // namespace
 
 std::vector<FlowFigure> flow_figures(const FlowResults& results) {
@@ -62,7 +81,7 @@ std::vector<FlowFigure> flow_figures(const FlowResults& results) {
                           number + (which == 1 ? "st" : "th") + " percentile of wall shear stress",
                           "Pa", value, number + " % of the wall's area have less"};
     };
-    return {
+    std::vector<FlowFigure> figures = {
         {"pressure_drop_pa", "pressure drop", "Pa", results.pressure_drop,
          "largest difference of the mean static pressures of two openings"},
         {"mass_imbalance_percent", "imbalance of mass", "%", kPercent * results.imbalance,
@@ -82,6 +101,8 @@ std::vector<FlowFigure> flow_figures(const FlowResults& results) {
         {"low_shear_area_mm2", "area of low shear", "mm^2", shear.low_area, low_shear_definition()},
         {"low_shear_area_percent", "share of low shear", "%",
          kPercent * shear.low_area / shear.area, low_shear_definition()}};
+    for (const RegionShear& region : results.regions) add_region(region, figures);
+    return figures;
 }
 
 Json results_json(const FlowResults& results) {

@@ -34,6 +34,7 @@ namespace vesselbench {
     ROW(keep_component) \
     ROW(repair) \
     ROW(remove_branch) \
+    ROW(mark_neck) \
     ROW(brush_smooth) \
     ROW(brush_inflate) \
     ROW(brush_weight) \

@@ -31,6 +31,7 @@ bool is_of_this_case(const Parameter& parameter) {
         case Meaning::Openings:
         case Meaning::Planes:
         case Meaning::Roles:
+        case Meaning::Neck:
         case Meaning::Dabs:
             return true;
         default:

@@ -21,6 +21,7 @@
 #include "workbench/prepare/end_question.h"
 #include "workbench/prepare/extraction_entry.h"
 #include "workbench/prepare/kept_recipe.h"
+#include "workbench/prepare/marked_sac.h"
 #include "workbench/prepare/model_check.h"
 #include "workbench/prepare/prepare_report.h"
 #include "workbench/prepare/prepared_purposes.h"
@@ -219,7 +220,8 @@ void write_products(PendingFiles& files, Session& session, const PrepareOptions&
     const ExportOptions how{
         .flow = prepared.flow,
         .provenance = provenance(session, options.purpose, review_of(session, options.purpose)),
-        .ends = made_ends(session, options.purpose, progress.silent())};
+        .ends = made_ends(session, options.purpose, progress.silent()),
+        .neck = recorded_neck(session.log(options.purpose))};
     const std::vector<std::string> names = product_names(options.purpose);
     const auto done = [&](std::size_t count) {
         return static_cast<double>(count) / static_cast<double>(names.size());

@@ -23,6 +23,7 @@
 #include "workbench/operations/shared/context_weights.h"
 #include "workbench/operations/shared/opening_json.h"
 #include "workbench/operations/table.h"
+#include "workbench/prepare/marked_sac.h"
 #include "workbench/prepare/model_figures.h"
 #include "workbench/prepare/recipe_run.h"
 #include "workbench/report/log_json.h"
@@ -259,6 +260,23 @@ void add_steps(PreparedReport& report, const std::vector<LogEntry>& edits, const
     }
 }
 
+/// The section of an edit that marked a sac's neck has the figures of this model.
+void add_sac(PreparedReport& report, const std::vector<LogEntry>& edits, const Surface& surface) {
+    const auto marked = marked_neck(edits);
+    if (!marked) return;
+    std::string key;
+    for (const LogEntry& entry : edits)
+        if (entry.result && marked_neck(entry.edit.operation, entry.result->resolved))
+            if (const auto& section = part_of(entry).report_section) key = section->key;
+    const ModelSac sac = measured_sac(surface, *marked, Keys::WithUnits);
+    report.document.erase(key);
+    if (sac.figures) report.document[key] = sac.figures->table;
+    // The edit may have warned of the same plane.
+    if (sac.warning &&
+        std::ranges::count(report.warnings, sac.warning->code, &Diagnostic::code) == 0)
+        report.warnings.push_back(*sac.warning);
+}
+
 /// What looks wrong on the model and was not dismissed.
 void add_findings(Json& report, const std::vector<Finding>& findings) {
     report["findings"] = Json::array();
@@ -297,6 +315,7 @@ PreparedReport prepare_report(Session& session, const PreparedCase& prepared,
               {"warnings", Json::array()},
               {"notes", Json::array()}};
     add_steps(made, edits, prepared.input);
+    add_sac(made, edits, surface);
     add_review(report, review_of(session, prepared.purpose));
     const auto source_edit = last_edit(edits, &RecipePart::makes_source);
     const Scene source = source_edit ? session.scene_after(*source_edit) : Scene{};

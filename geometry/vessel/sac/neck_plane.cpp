@@ -10,6 +10,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "geometry/kernel/diagnosed_error.h"
+#include "geometry/kernel/wording.h"
 #include "geometry/vessel/centerlines/centerline_graph.h"
 #include "geometry/vessel/openings/branch_part.h"
 #include "geometry/vessel/openings/vessel_tube.h"
@@ -37,6 +38,20 @@ VertexId nearest_vertex(const Surface& surface, const Vec3& x) {
     for (VertexId v = 1; v < surface.vertex_count(); ++v)
         if ((surface.points()[v] - x).squaredNorm() < (surface.points()[best] - x).squaredNorm())
             best = v;
+    return best;
+}
+
+/// The vertex of the sac that is nearest to its dome: an inner point may be nearer to the wall
+/// below the neck. None: the plane misses the surface.
+std::optional<VertexId> dome_vertex(const Surface& surface, const SacNeck& neck) {
+    std::optional<VertexId> best;
+    double least = std::numeric_limits<double>::infinity();
+    for (VertexId v = 0; v < surface.vertex_count(); ++v) {
+        const double squared = (surface.points()[v] - neck.dome).squaredNorm();
+        if (squared >= least || neck.plane.distance(surface.points()[v]) <= 0.0) continue;
+        least = squared;
+        best = v;
+    }
     return best;
 }
 
@@ -191,7 +206,7 @@ private:
 
 }  // namespace
 
-ProposedNeck propose_neck(const Surface& surface, const Vec3& dome, const Progress& progress) {
+SacAtNeck propose_neck(const Surface& surface, const Vec3& dome, const Progress& progress) {
     const NamedBranch branch = branch_at_tip(surface, dome, progress);
     const BranchRoot root = branch_root(*branch.graph, branch.tip);
     const VertexId tip = nearest_vertex(surface, dome);
@@ -201,9 +216,23 @@ ProposedNeck propose_neck(const Surface& surface, const Vec3& dome, const Progre
     if (const auto guess = first_guess(surface, root, tip, foreign)) first = search.first(*guess);
     if (!first) throw DiagnosedFailure({.code = "no-neck", .place = dome});
     const Positions& line = root.parents.front().points();
-    ProposedNeck neck{.sac = search.best(std::move(*first), line.back() - line.front())};
+    SacAtNeck neck{.sac = search.best(std::move(*first), line.back() - line.front())};
     neck.parent_diameter = parent_diameter(root.parents, neck.sac.neck_centroid);
     return neck;
+}
+
+SacAtNeck sac_beyond(const Surface& surface, const SacNeck& neck, const Progress& progress) {
+    const NamedBranch branch = branch_at_tip(surface, neck.dome, progress);
+    const auto dome = dome_vertex(surface, neck);
+    std::optional<SacPart> sac;
+    if (dome) sac = sac_above(surface, neck.plane, *dome, foreign_vertices(surface, branch));
+    if (!sac)
+        throw DiagnosedFailure({.code = "plane-is-no-neck",
+                                .place = neck.plane.point,
+                                .words = {{"dome", place_text(neck.dome)}}});
+    const BranchRoot root = branch_root(*branch.graph, branch.tip);
+    return {.sac = std::move(*sac),
+            .parent_diameter = parent_diameter(root.parents, neck.plane.point)};
 }
 
 }  // namespace vesselbench

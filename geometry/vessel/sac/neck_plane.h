@@ -6,9 +6,15 @@
 namespace vesselbench {
 
 /// An aneurysm's sac as far as its neck, and the vessel that carries it.
-struct ProposedNeck {
+struct SacAtNeck {
     SacPart sac;
-    double parent_diameter = 0.0;  ///< of the parent's tube at the neck [mm]
+    double parent_diameter = 0.0;  ///< of the parent's tube at the neck [mm]; 0: it has no parent
+};
+
+/// Where a sac begins: finds it on every surface of its vessel, whatever the triangles.
+struct SacNeck {
+    Vec3 dome = Vec3::Zero();  ///< point in the sac's dome, on the wall or inside [mm]
+    Plane plane;               ///< its normal points into the sac
 };
 
 /// Proposes the plane of a sac's neck.
@@ -24,7 +30,13 @@ struct ProposedNeck {
 /// \param dome point in the sac's dome [mm]
 /// \throw AlgorithmFailure if no branch has its tip there, it has no parent vessel, or no plane
 ///        separates it from the vessel's ends
-[[nodiscard]] ProposedNeck propose_neck(const Surface& surface, const Vec3& dome,
-                                        const Progress& progress = {});
+[[nodiscard]] SacAtNeck propose_neck(const Surface& surface, const Vec3& dome,
+                                     const Progress& progress = {});
+
+/// The sac beyond a plane that is known.
+/// \throw AlgorithmFailure if no branch has its tip at the dome, or the plane does not separate it
+///        from the vessel's ends by one closed curve
+[[nodiscard]] SacAtNeck sac_beyond(const Surface& surface, const SacNeck& neck,
+                                   const Progress& progress = {});
 
 }  // namespace vesselbench

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -10,6 +11,8 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/convex_hull_3.h>
+
+#include "geometry/kernel/wording.h"
 
 namespace vesselbench {
 
@@ -54,23 +57,40 @@ Positions corners_of(const Hull& hull) {
     return corners;
 }
 
-/// Volume, and area without the faces in the neck's plane.
+/// A face's corners from the least one on, relative to the neck's point: the hull's own order
+/// depends on what else was computed.
+Positions corners_of(const Hull& hull, Hull::Face_index face, const Plane& neck) {
+    Positions x;
+    for (const auto v : CGAL::vertices_around_face(hull.halfedge(face), hull)) {
+        const auto& p = hull.point(v);
+        x.emplace_back(p.x() - neck.point.x(), p.y() - neck.point.y(), p.z() - neck.point.z());
+    }
+    const auto before = [](const Vec3& a, const Vec3& b) {
+        return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+    };
+    std::rotate(x.begin(), std::min_element(x.begin(), x.end(), before), x.end());
+    return x;
+}
+
+/// The same bits in whatever order the parts come.
+double sorted_sum(std::vector<double> parts) {
+    std::sort(parts.begin(), parts.end());
+    return std::accumulate(parts.begin(), parts.end(), 0.0);
+}
+
+/// Volume and area without the faces in the neck's plane, from which volumes are measured.
 std::pair<double, double> hull_measures(const Hull& hull, const Plane& neck, double size) {
-    double volume = 0.0, area = 0.0;
+    std::vector<double> volumes, areas;
     for (const auto face : hull.faces()) {
-        Positions x;
-        for (const auto v : CGAL::vertices_around_face(hull.halfedge(face), hull)) {
-            const auto& p = hull.point(v);
-            x.emplace_back(p.x(), p.y(), p.z());
-        }
-        for (Vec3& p : x) p -= neck.point;
-        volume += x[0].dot(x[1].cross(x[2])) / 6.0;
+        const Positions x = corners_of(hull, face, neck);
         const bool in_neck = std::all_of(x.begin(), x.end(), [&](const Vec3& p) {
             return std::abs(neck.normal.dot(p)) < 1e-9 * size;
         });
-        if (!in_neck) area += 0.5 * (x[1] - x[0]).cross(x[2] - x[0]).norm();
+        if (in_neck) continue;
+        volumes.push_back(x[0].dot(x[1].cross(x[2])) / 6.0);
+        areas.push_back(0.5 * (x[1] - x[0]).cross(x[2] - x[0]).norm());
     }
-    return {volume, area};
+    return {sorted_sum(std::move(volumes)), sorted_sum(std::move(areas))};
 }
 
 /// 0 for a hemisphere on its neck [Raghavan].
@@ -131,7 +151,15 @@ SacMeasures measure_sac(const SacPart& sac, double parent_diameter) {
 }
 
 bool neck_in_doubt(const SacMeasures& m) {
-    return m.neck_diameter > kUnroundNeck * m.neck_hydraulic || m.length > kWallBeside * m.height;
+    return !why_neck_in_doubt(m).empty();
+}
+
+std::string why_neck_in_doubt(const SacMeasures& m) {
+    std::vector<std::string> reasons;
+    if (m.neck_diameter > kUnroundNeck * m.neck_hydraulic)
+        reasons.emplace_back("its outline is long for its area");
+    if (m.length > kWallBeside * m.height) reasons.emplace_back("wall lies far beside it");
+    return enumerated(reasons);
 }
 
 }  // namespace vesselbench

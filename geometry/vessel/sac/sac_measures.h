@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "geometry/vessel/sac/sac_part.h"
 
 namespace vesselbench {
@@ -39,5 +41,8 @@ struct SacMeasures {
 /// lengthwise, or wall lies far beside it, as where other vessels were cut off with the sac. The
 /// limits were chosen on docs/science/sacs.md's cases.
 [[nodiscard]] bool neck_in_doubt(const SacMeasures& measures);
+
+/// The reasons: "its outline is long for its area"; empty: it is not in doubt.
+[[nodiscard]] std::string why_neck_in_doubt(const SacMeasures& measures);
 
 }  // namespace vesselbench

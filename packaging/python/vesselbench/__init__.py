@@ -19,7 +19,7 @@ from .results import (Audit, AuditEntry, Batch, BatchCase, BatchFailure, Branch,
                       Deviation, Diagnostic, Dismissal, Edit, End, Exported, Finding, Findings, FlowOpening, FlowResults,
                       FlowSolution, Histogram, Log, MeanCurvature, MeanMax, Measures, MinMean, MinMeanMax, Moved, Node,
                       NotSearched, Odds, Operation, Parameter, Patch, Phantom, Reading, Remedy, Replay, ReplayedEdit,
-                      Review, ReviewedEdit, State, Treatment)
+                      Review, ReviewedEdit, Sac, State, Treatment)
 
 __all__ = [
     "batch", "centerlines", "doctor", "ends", "flow_results", "measure", "operation", "operations", "phantom", "picture",
@@ -30,5 +30,5 @@ __all__ = [
     "Deviation", "Diagnostic", "Dismissal", "Edit", "End", "Exported", "Finding", "Findings", "FlowOpening", "FlowResults",
     "FlowSolution", "Histogram", "Log", "MeanCurvature", "MeanMax", "Measures", "MinMean", "MinMeanMax", "Moved", "Node",
     "NotSearched", "Odds", "Operation", "Parameter", "Patch", "Phantom", "Reading", "Remedy", "Replay", "ReplayedEdit",
-    "Review", "ReviewedEdit", "State", "Treatment",
+    "Review", "ReviewedEdit", "Sac", "State", "Treatment",
 ]

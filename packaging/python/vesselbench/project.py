@@ -3,7 +3,6 @@ from __future__ import annotations
 
 import json
 import os
-import tempfile
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -92,15 +91,9 @@ class Project:
         return read(Exported, answer("export", words, [str(self.path), os.fspath(file)], self._program), "export")
 
     def measure(self, reference: PathLike | None = None, *, variant: str | None = None, **options: Option) -> Measures:
-        """Measures the model's surface, which is exported for that: the project's record lists the export.
-
-        `vesselbench.measure` measures files.
-        """
-        with tempfile.TemporaryDirectory(prefix="vesselbench-") as folder:
-            surface = os.path.join(folder, "surface.vtp")
-            self.export(surface, variant=variant)
-            files = [surface] if reference is None else [surface, os.fspath(reference)]
-            return read(Measures, answer("measure", option_words(options), files, self._program), "measure")
+        """Measures the model's surface, and the sac whose neck is marked. `vesselbench.measure` measures files."""
+        words = [] if reference is None else [os.fspath(reference)]
+        return read(Measures, self._answer("measure", {"variant": variant, **options}, *words), "measure")
 
     # --- judging it --------------------------------------------------------------------------------------------------
     def findings(self, *, variant: str | None = None) -> Findings:

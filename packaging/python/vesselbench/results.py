@@ -106,6 +106,34 @@ class Deviation(Result):
 
 
 @dataclass(frozen=True)
+class Sac(Result):
+    """Of an aneurysm beyond its marked neck. docs/user/aneurysms.md defines each; None: the neck is in doubt."""
+
+    in_doubt: bool
+    dome: Point  #: a point in it [mm]
+    neck: Point  #: middle of the neck [mm]
+    normal: Point  #: of the neck's plane, into the sac
+    dome_area: float | None = None  #: [mm^2]
+    neck_area: float | None = None  #: [mm^2]
+    volume: float | None = None  #: [mm^3]
+    neck_diameter: float | None = None  #: [mm]
+    neck_width: float | None = None  #: [mm]
+    neck_hydraulic_diameter: float | None = None  #: [mm]
+    height: float | None = None  #: [mm]
+    length: float | None = None  #: [mm]
+    width: float | None = None  #: [mm]
+    diameter: float | None = None  #: [mm]
+    aspect_ratio: float | None = None
+    size_ratio: float | None = None
+    bottleneck_factor: float | None = None
+    bulge_location: float | None = None
+    undulation: float | None = None
+    ellipticity: float | None = None
+    nonsphericity: float | None = None
+    parent_diameter: float | None = None  #: [mm]
+
+
+@dataclass(frozen=True)
 class Measures(Result):
     """Of a surface. docs/science/measures.md explains each."""
 
@@ -128,6 +156,7 @@ class Measures(Result):
     mean_curvature: MeanCurvature
     patches: tuple[Patch, ...]
     reference: Deviation | None = None  #: if one was given
+    sac: Sac | None = None  #: of a project where a neck is marked
 
     def patch(self, name: str) -> Patch:
         """The patch of this name. KeyError if there is none."""

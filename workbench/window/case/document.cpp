@@ -22,6 +22,7 @@
 #include "workbench/export/export_formats.h"
 #include "workbench/export/products.h"
 #include "workbench/prepare/acceptance_gate.h"
+#include "workbench/prepare/marked_sac.h"
 #include "workbench/prepare/prepared_purposes.h"
 #include "workbench/prepare/vessel_question.h"
 #include "workbench/review/provenance.h"
@@ -495,7 +496,8 @@ void Document::export_to(const std::filesystem::path& file,
                      {.flow = flow_in_vessel(flow.parameters(), session.log(variant)),
                       .provenance = provenance(session, variant, review),
                       .shown = {.title = shown_name(session), .purpose = model_title(variant)},
-                      .ends = made_ends(session, variant, progress.silent())},
+                      .ends = made_ends(session, variant, progress.silent()),
+                      .neck = recorded_neck(session.log(variant))},
                      progress.part(0.7, 1.0));
         progress.check_cancelled();
         files.commit();

@@ -2,25 +2,16 @@
 
 #include <algorithm>
 #include <optional>
-#include <variant>
 
 #include "geometry/kernel/wording.h"
 #include "workbench/case/argument_texts.h"
+#include "workbench/window/features/handles/handle_values.h"
 
 namespace vesselbench {
 
 namespace {
 
 constexpr double kLeastShare = 0.1;  ///< of the stretch, and of the radius, that a drag leaves [-]
-
-/// What is typed, else what the operation decides.
-template <class T>
-std::optional<T> shown(const OperationForm& form, const std::string& name) {
-    std::optional<Value> value = value_of(form, name);
-    if (!value) value = form.field(name).automatic;
-    if (const T* found = value ? std::get_if<T>(&*value) : nullptr) return *found;
-    return std::nullopt;
-}
 
 struct Stretch {
     Vec3 from, to;
@@ -39,8 +30,8 @@ struct Stretch {
 };
 
 std::optional<Stretch> stretch_of(const OperationForm& form) {
-    const auto from = shown<Vec3>(form, "from"), to = shown<Vec3>(form, "to");
-    const auto radius = shown<double>(form, "radius");
+    const auto from = shown_value<Vec3>(form, "from"), to = shown_value<Vec3>(form, "to");
+    const auto radius = shown_value<double>(form, "radius");
     if (!from || !to || !radius || !((*to - *from).norm() > 0.0)) return std::nullopt;
     return Stretch{*from, *to, *radius};
 }

@@ -10,6 +10,7 @@
 #include "geometry/kernel/wording.h"
 #include "workbench/case/argument_texts.h"
 #include "workbench/operations/stamp/tool.h"
+#include "workbench/window/features/handles/handle_values.h"
 
 namespace vesselbench {
 
@@ -19,7 +20,6 @@ constexpr double kLeastSize = 0.05;   ///< of a tool that is dragged [mm]
 constexpr double kOfferedPath = 0.1;  ///< half its length, of the model's diagonal [-]
 constexpr double kArm = 0.5;          ///< of the direction's handle, of the tool's reach [-]
 constexpr double kNextPoint = 0.5;    ///< from a path's end to the next one, of its last segment
-constexpr double kNormalSteps = 1e4;  ///< so that typed directions stay short
 
 /// What the operation would use: the given values, else those that it decides.
 Arguments used_values(const OperationForm& form) {
@@ -74,16 +74,6 @@ struct Grip {
     Handle handle;
     std::function<std::vector<FieldText>(const Vec3& to)> texts;
 };
-
-FieldText point_text(const std::string& name, const Vec3& point) {
-    return {name, to_text(Value(rounded_place(point)))};
-}
-
-FieldText direction_text(const std::string& name, const Vec3& direction) {
-    const Vec3 rounded =
-        (direction.normalized() * kNormalSteps).array().round() / kNormalSteps + 0.0;
-    return {name, to_text(Value(rounded))};
-}
 
 FieldText length_text(const std::string& name, double length) {
     return {name, to_text(Value(std::max(kLeastSize, rounded_length(length))))};

@@ -8,6 +8,7 @@
 #include "workbench/window/features/handles/cut_handles.h"
 #include "workbench/window/features/handles/handles_feature.h"
 #include "workbench/window/features/handles/length_handles.h"
+#include "workbench/window/features/handles/neck_handles.h"
 #include "workbench/window/features/handles/stretch_handles.h"
 #include "workbench/window/features/handles/tool_handles.h"
 #include "workbench/window/features/openings/openings_feature.h"
@@ -71,6 +72,8 @@ void ViewHandles::take_shape(const PanelContext& c) {
         shape_ = length_shape(*form, openings_);
     else if (has_stretch(*form))
         shape_ = stretch_shape(*form);
+    else if (has_field(*form, Meaning::Neck))
+        shape_ = neck_shape(*form);
     else if (deforms && deform_.preview())
         shape_ = deform_shape(*form, *deform_.preview());
     else if (cut_form_ && cut_)
@@ -139,6 +142,7 @@ std::vector<FieldText> ViewHandles::texts(const PanelContext& c, const Vec3& to,
     if (has_field(before, Meaning::Openings))
         return length_texts(before, start_.openings, start_.index, to, snap);
     if (has_stretch(before)) return stretch_texts(before, start_.index, to);
+    if (has_field(before, Meaning::Neck)) return neck_texts(before, start_.index, to);
     if (start_.branch) return deform_texts(*start_.branch, start_.index, to);
     if (!start_.cut || !start_.cut_form) return {};
     std::vector<FieldText> moved = cut_texts(*start_.cut_form, *start_.cut, start_.index, to);
