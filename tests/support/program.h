@@ -19,8 +19,7 @@ struct ProgramRun {
                                      const std::string& limits = "");
 
 /// Runs vesselbench itself.
-[[nodiscard]] ProgramRun run(const std::vector<std::string>& arguments,
-                             const std::string& limits = "");
+ProgramRun run(const std::vector<std::string>& arguments, const std::string& limits = "");
 
 /// Names in a folder, sorted; empty if there is no such folder.
 [[nodiscard]] std::vector<std::string> names_in(const std::string& folder);

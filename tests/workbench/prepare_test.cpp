@@ -358,6 +358,32 @@ SCENARIO("An opening in a vessel's side ends prepare with a command that mends i
     CHECK(resumed.exit_code == 0);
 }
 
+SCENARIO("A flow model has layers on its wall where they can be made", "[workbench][prepare]") {
+    const auto prepared = [](const std::vector<std::string>& more) {
+        const std::string out = temporary_folder() + "/layers";
+        std::vector<std::string> words = {"prepare", tube(), "--for", "cfd", "--out", out};
+        words.insert(words.end(), more.begin(), more.end());
+        const ProgramRun made = run(words);
+        return std::pair(made, made.exit_code == 0
+                                   ? Json::parse(text_of(out + "/report.json"))["volume_mesh"]
+                                   : Json());
+    };
+    const auto [plain, usual] = prepared({});
+    REQUIRE(plain.exit_code == 0);
+    CHECK(usual["prisms"].get<int>() > 1000);
+    CHECK(usual["smallest_scaled_jacobian"].get<double>() >= 0.2);
+
+    const auto [few, without] = prepared({"--set", "tetrahedralize.cells=4000"});
+    CHECK(few.exit_code == 0);
+    CHECK_THAT(few.err, Contains("layers=0 instead") && Contains("prisms"));
+    CHECK_FALSE(without.contains("prisms"));
+
+    const ProgramRun asked =
+        prepared({"--set", "tetrahedralize.cells=4000", "--set", "tetrahedralize.layers=4"}).first;
+    CHECK(asked.exit_code == 1);
+    CHECK_THAT(asked.err, Contains("prisms"));
+}
+
 SCENARIO("A phantom becomes a CFD case", "[workbench][prepare]") {
     static const Beginning beginning([](const std::string& folder) {
         return run({"prepare", tube(), "--for", "cfd", "--out", folder + "/cfd", "--json"});

@@ -165,6 +165,18 @@ SCENARIO("Every purpose is a word of recipes", "[workbench][recipe]") {
                       Contains("--for 'cfx'") && Contains("did you mean 'cfd'"));
 }
 
+SCENARIO("What --set asks for by name is not replaced otherwise", "[workbench][recipe]") {
+    const auto replaces_after = [](const std::string& text) {
+        Recipe recipe = recipe_from_json(Json::parse(R"([{"operation": "tetrahedralize",
+            "arguments": {"layers": 4}, "otherwise": {"layers": 0}}])"),
+                                         {});
+        set_arguments(recipe, std::vector{text});
+        return recipe[0].otherwise.has_value();
+    };
+    CHECK(replaces_after("tetrahedralize.cells=50000"));
+    CHECK_FALSE(replaces_after("tetrahedralize.layers=2"));
+}
+
 SCENARIO("--set changes a recipe's arguments", "[workbench][recipe]") {
     Recipe recipe = recipe_from_json(
         Json::parse(R"([{"operation": "smooth"}, {"operation": "smooth", "step": "source"}])"), {});
