@@ -24,11 +24,16 @@ inline constexpr double kNormalScatter = 1.4826;
     return std::abs(u) < 1.0 ? (1.0 - u * u) * (1.0 - u * u) : 0.0;
 }
 
+/// Median of the absolute values; 0 for none.
+[[nodiscard]] inline double median_deviation(std::vector<double> deviations) {
+    for (double& deviation : deviations) deviation = std::abs(deviation);
+    return median(std::move(deviations));
+}
+
 /// Robust standard deviation by the median of absolute deviations.
 /// \param deviations of any sign; 0 for none
 [[nodiscard]] inline double scatter_of(std::vector<double> deviations) {
-    for (double& deviation : deviations) deviation = std::abs(deviation);
-    return kNormalScatter * median(std::move(deviations));
+    return kNormalScatter * median_deviation(std::move(deviations));
 }
 
 }  // namespace vesselbench

@@ -343,7 +343,7 @@ SCENARIO("An open rim that is closed is named, however small", "[workbench][open
     REQUIRE(outcome.warnings.size() == 1);
     CHECK(outcome.warnings[0].code == "end-decided");
     CHECK(outcome.warnings[0].place);
-    CHECK(outcome.warnings[0].words.at("end") == "the open rim");
+    CHECK(outcome.warnings[0].words.at("end") == "the open rim of end 3");
     CHECK(outcome.warnings[0].words.at("fate") == "closed");
 }
 

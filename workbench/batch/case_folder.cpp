@@ -1,6 +1,8 @@
 #include "workbench/batch/case_folder.h"
 
+#include <chrono>
 #include <fstream>
+#include <thread>
 
 #include "geometry/kernel/bare_name.h"
 #include "geometry/kernel/errors.h"
@@ -43,11 +45,19 @@ void remove_unfinished(const fs::path& folder) {
     fs::remove(folder / kRunning);
 }
 
+/// The processes of a killed batch are gone a moment after it: their memory is given back first.
+constexpr std::chrono::milliseconds kLongestEnd(5000), kPoll(20);
+
 /// So that no window or command has the project that is moved away.
 /// \throw IoError if one has; no lock where there is no project
 FileLock::Attempt project_lock(const fs::path& folder) {
     if (!fs::exists(folder / kProjectFile)) return {};
     FileLock::Attempt attempt = FileLock::acquire(folder / kProjectFile);
+    const auto end = std::chrono::steady_clock::now() + kLongestEnd;
+    while (attempt.lock == nullptr && std::chrono::steady_clock::now() < end) {
+        std::this_thread::sleep_for(kPoll);
+        attempt = FileLock::acquire(folder / kProjectFile);
+    }
     if (attempt.lock == nullptr)
         throw IoError("'" + bare_name(folder) + "' cannot be prepared again: " + attempt.reason);
     return attempt;

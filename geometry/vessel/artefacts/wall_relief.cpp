@@ -37,6 +37,8 @@ using Terms = Eigen::Matrix<double, kTerms, 1>;
 constexpr std::size_t kFewest = 4 * kTerms;  ///< vertices of a stretch
 constexpr int kSectors = 8;                  ///< each has vertices, or the wall is not all around
 constexpr int kRounds = 5;
+/// kNormalScatter as it is rounded in stored edits, which replay to the same bits.
+constexpr double kNormal = 1.483;
 constexpr double kFinest = 0.004;  ///< scatter below which no vertex is an outlier [radii]
 
 /// A vertex in the coordinates of a stretch, in radii.
@@ -76,7 +78,7 @@ Fit robust_fit(const std::vector<Polar>& points) {
         fit.shape = normal.selfadjointView<Eigen::Lower>().ldlt().solve(right);
         for (std::size_t i = 0; i < rows.size(); ++i)
             off[i] = points[i].distance - rows[i].dot(fit.shape);
-        fit.scatter = std::max(scatter_of(off), kFinest);
+        fit.scatter = std::max(kNormal * median_deviation(off), kFinest);
         for (std::size_t i = 0; i < rows.size(); ++i)
             weights[i] = biweight(off[i], kTukeyReach * fit.scatter);
     }
