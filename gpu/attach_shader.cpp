@@ -16,7 +16,7 @@ std::string compile_log(unsigned shader) {
 
 }  // namespace
 
-ShaderSource attach_shader(const Program& program, unsigned kind,
+ShaderSource attach_shader(unsigned program, unsigned kind,
                            const std::map<std::string, std::string>& texts, const std::string& file,
                            const std::string& defines) {
     ShaderSource source = assemble_shader(texts, file);
@@ -25,7 +25,7 @@ ShaderSource attach_shader(const Program& program, unsigned kind,
     const char* text = source.text.c_str();
     glShaderSource(shader, 1, &text, nullptr);
     glCompileShader(shader);
-    glAttachShader(program.id(), shader);
+    glAttachShader(program, shader);
     glDeleteShader(shader);  // lives on while attached
     int ok = 0;
     glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);

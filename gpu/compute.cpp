@@ -97,7 +97,7 @@ std::string link_log(unsigned program) {
 Program make_compute_program(const Device& device, const std::string& name, bool wide) {
     ++device.counts->compiles;
     Program program(glCreateProgram());
-    const ShaderSource source = attach_shader(program, GL_COMPUTE_SHADER, *device.shaders,
+    const ShaderSource source = attach_shader(program.id(), GL_COMPUTE_SHADER, *device.shaders,
                                               name + ".comp", wide ? "#define WIDE\n" : "");
     int ok = 0;
     glLinkProgram(program.id());

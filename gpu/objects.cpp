@@ -68,8 +68,8 @@ Buffer make_buffer(std::span<const std::byte> bytes, const std::string& label) {
 Program make_program(const std::string& vertex, const std::string& fragment,
                      const std::string& defines) {
     Program program(glCreateProgram());
-    attach_shader(program, GL_VERTEX_SHADER, shader_texts(), vertex + ".vert", defines);
-    attach_shader(program, GL_FRAGMENT_SHADER, shader_texts(), fragment + ".frag", defines);
+    attach_shader(program.id(), GL_VERTEX_SHADER, shader_texts(), vertex + ".vert", defines);
+    attach_shader(program.id(), GL_FRAGMENT_SHADER, shader_texts(), fragment + ".frag", defines);
     glLinkProgram(program.id());
     int ok = 0;
     glGetProgramiv(program.id(), GL_LINK_STATUS, &ok);

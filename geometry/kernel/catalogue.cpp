@@ -3,7 +3,12 @@
 #include <algorithm>
 #include <vector>
 
-#include "geometry/kernel/catalogue_parts.h"
+#include "geometry/kernel/catalogue_edits.h"
+#include "geometry/kernel/catalogue_images.h"
+#include "geometry/kernel/catalogue_openings.h"
+#include "geometry/kernel/catalogue_products.h"
+#include "geometry/kernel/catalogue_projects.h"
+#include "geometry/kernel/catalogue_refusals.h"
 #include "geometry/kernel/diagnostic.h"
 
 namespace vesselbench {

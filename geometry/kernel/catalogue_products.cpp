@@ -1,4 +1,4 @@
-#include "geometry/kernel/catalogue_parts.h"
+#include "geometry/kernel/catalogue_products.h"
 
 namespace vesselbench {
 

@@ -1,4 +1,5 @@
 #include <csignal>
+#include <cstddef>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -9,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
 #include "geometry/kernel/diagnosed_error.h"
@@ -88,9 +90,17 @@ int with_output_written(int code) {
     return kFailed;
 }
 
+/// Eigen sums large products in blocks of a length that depends on the processor's caches. Blocks
+/// for the same caches give the same bits everywhere, so that stored edits replay.
+void fix_sums() {
+    constexpr std::ptrdiff_t kKiB = 1024, kMiB = 1024 * kKiB;
+    Eigen::setCpuCacheSizes(48 * kKiB, kMiB, 32 * kMiB);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+    fix_sums();
     if (argc == 2 && std::string_view(argv[1]) == "--worker") {
         // Sent to the whole group: the session stops and ends its worker itself.
         for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_IGN);
