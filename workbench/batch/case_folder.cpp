@@ -46,7 +46,7 @@ void remove_unfinished(const fs::path& folder) {
 }
 
 /// The processes of a killed batch are gone a moment after it: their memory is given back first.
-constexpr std::chrono::milliseconds kLongestEnd(5000), kPoll(20);
+constexpr std::chrono::milliseconds kLongestEnd(5000), kLockRetry(20);
 
 /// So that no window or command has the project that is moved away.
 /// \throw IoError if one has; no lock where there is no project
@@ -55,7 +55,7 @@ FileLock::Attempt project_lock(const fs::path& folder) {
     FileLock::Attempt attempt = FileLock::acquire(folder / kProjectFile);
     const auto end = std::chrono::steady_clock::now() + kLongestEnd;
     while (attempt.lock == nullptr && std::chrono::steady_clock::now() < end) {
-        std::this_thread::sleep_for(kPoll);
+        std::this_thread::sleep_for(kLockRetry);
         attempt = FileLock::acquire(folder / kProjectFile);
     }
     if (attempt.lock == nullptr)
