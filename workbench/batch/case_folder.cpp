@@ -27,6 +27,10 @@ fs::path moved_away(const BatchFolders& folders, const std::string& name) {
     for (int number = 1; place.empty() || fs::exists(place); ++number)
         place = folders.earlier() / (name + "." + std::to_string(number));
     fs::rename(folders.of(name), place);
+    // Marks and locks of this batch, which went with it.
+    for (const std::string& own : {std::string(kRunning), std::string(kProjectFile) + "-lock"})
+        fs::remove(place / own);
+    remove_abandoned(place);
     return place;
 }
 
