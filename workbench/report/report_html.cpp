@@ -264,29 +264,29 @@ std::string report_html(const Json& report, std::span<const ReportPicture> pictu
     Json steps = Json::array();
     for (const Json& step : member_of(report, "steps")) steps.push_back(step_texts(step));
     const std::size_t shown_first = std::min<std::size_t>(1, pictures.size());
-    Json page = {{"input", shown_text(member_of(member_of(report, "input"), "name"))},
-                 {"title", title_of(report.value("purpose", ""))},
-                 {"version", shown_text(member_of(report, "program_version"))},
-                 {"units", shown_text(member_of(report, "units_text"))},
-                 {"review", report.contains("review")
-                                ? shown_text(member_of(report["review"], "state"))
-                                : "not reviewed"},
-                 {"for_flow", is_for_flow(report)},
-                 {"tiles", tiles(report)},
-                 {"first", first_screen(report, sections)},
-                 {"first_picture", gallery(pictures.first(shown_first))},
-                 {"warnings", shown_texts(member_of(report, "warnings"))},
-                 {"notes", shown_texts(member_of(report, "notes"))},
-                 {"pictures", gallery(pictures.subspan(shown_first))},
-                 {"steps", steps},
-                 {"quality", quality(report)},
-                 {"requirements", requirements(report)},
-                 {"openings", openings(report)},
-                 {"ends", ends(report)},
-                 {"findings", findings(report, true)},
-                 {"folded", findings(report, false)},
-                 {"sections", sections_of(report, sections)},
-                 {"products", shown_texts(member_of(report, "products"))}};
+    Json page = {
+        {"input", shown_text(member_of(member_of(report, "input"), "name"))},
+        {"title", title_of(report.value("purpose", ""))},
+        {"version", shown_text(member_of(report, "program_version"))},
+        {"units", shown_text(member_of(report, "units_text"))},
+        {"review", report.contains("review") ? shown_text(member_of(report["review"], "state"))
+                                             : "not reviewed"},
+        {"for_flow", is_for_flow(report)},
+        {"tiles", tiles(report)},
+        {"first", first_screen(report, sections)},
+        {"first_picture", gallery(pictures.first(shown_first))},
+        {"warnings", shown_texts(member_of(report, "warnings"))},
+        {"notes", shown_texts(member_of(report, "notes"))},
+        {"pictures", gallery(pictures.subspan(shown_first))},
+        {"steps", steps},
+        {"quality", quality(report)},
+        {"requirements", requirements(report)},
+        {"openings", openings(report)},
+        {"ends", ends(report)},
+        {"findings", findings(report, true)},
+        {"folded", findings(report, false)},
+        {"sections", sections_of(report, sections)},
+        {"products", shown_texts(member_of(report, "products"))}};
     for (const char* list : {"warnings", "notes", "findings", "pictures", "requirements", "ends"})
         page[std::string("any_") + list] = !page[list].empty();
     page["any_folded"] = !page["folded"].empty();
