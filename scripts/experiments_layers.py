@@ -6,8 +6,8 @@
 
 Every project.vbench below the folders that has a volume mesh is taken: those that `scripts/acceptance.py --goal cfd` and
 `scripts/forest.py --goal cfd --keep` leave. Each is meshed without layers and with those of the page's rows, at the
-operation's usual settings otherwise. --repeat prepares the bundled aneurysm in FOLDER and compares its row with the page, within 5 %
-of each figure; exit code 1 if it differs.
+operation's usual settings otherwise. --repeat prepares the bundled aneurysm in FOLDER and compares its row with the page, within
+5 % of each figure; exit code 1 if it differs.
 """
 import json
 import os
@@ -101,15 +101,16 @@ def case_row(row):
 
 def page(rows):
     usual = [row for row in rows if all(row[key] == value for key, value in USUAL.items())]
-    head = ["layers", "thickness / R", "cases", "refused", "scaled Jacobian, least", "thinner, median [%]", "below half, most [%]",
-            "non-orthogonality, most [deg]", "skewness, most", "cells, median", "time, median"]
+    head = ["layers", "thickness / R", "cases", "refused", "scaled Jacobian, least", "thinner, median [%]",
+            "below half, most [%]", "non-orthogonality, most [deg]", "skewness, most", "cells, median", "time, median"]
     usual_refusals = "".join(f"- {row['case']}: {row['refused']}\n" for row in usual if "refused" in row)
     return f"""# Layers of prisms on the walls of prepared models
 
 `scripts/experiments_layers.py` wrote this page with {page_rows.revision()}. Each row meshes the flow models of
-[acceptance](acceptance.md) again, with layers on the wall. [In a tube](experiments-tube.md) they are compared with the exact shear stress.
-*Thinner* is the share of the wall's area whose layers have less than 98 % of the thickness asked for, since other walls are near or
-the wall is curved, *below half* that with less than half of it. Cells and time are relative to the same model without layers.
+[acceptance](acceptance.md) again, with layers on the wall. [In a tube](experiments-tube.md) they are compared with the exact
+shear stress. *Thinner* is the share of the wall's area whose layers have less than 98 % of the thickness asked for, since
+other walls are near or the wall is curved, *below half* that with less than half of it. Cells and time are relative to the
+same model without layers.
 
 {table(head, [summary(settings, rows) for settings in SETTINGS])}
 ## Four layers of 0.2 radii, by case
