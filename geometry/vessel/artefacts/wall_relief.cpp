@@ -37,7 +37,7 @@ using Terms = Eigen::Matrix<double, kTerms, 1>;
 constexpr std::size_t kFewest = 4 * kTerms;  ///< vertices of a stretch
 constexpr int kSectors = 8;                  ///< each has vertices, or the wall is not all around
 constexpr int kRounds = 5;
-/// kNormalScatter as it is rounded in stored edits, which replay to the same bits.
+/// kNormalScatter to three digits, with which the limits of findings were chosen.
 constexpr double kNormal = 1.483;
 constexpr double kFinest = 0.004;  ///< scatter below which no vertex is an outlier [radii]
 
