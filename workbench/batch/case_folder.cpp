@@ -27,10 +27,6 @@ fs::path moved_away(const BatchFolders& folders, const std::string& name) {
     for (int number = 1; place.empty() || fs::exists(place); ++number)
         place = folders.earlier() / (name + "." + std::to_string(number));
     fs::rename(folders.of(name), place);
-    // Marks and locks of this batch, which went with it.
-    for (const std::string& own : {std::string(kRunning), std::string(kProjectFile) + "-lock"})
-        fs::remove(place / own);
-    remove_abandoned(place);
     return place;
 }
 
@@ -47,6 +43,14 @@ void remove_unfinished(const fs::path& folder) {
     for (const auto& entry : fs::directory_iterator(folder))
         if (entry.path().filename() != kRunning) fs::remove_all(entry.path());
     fs::remove(folder / kRunning);
+}
+
+/// What shows that a batch is at a case.
+void remove_marks(const fs::path& folder) {
+    static_cast<void>(FileLock::acquire(folder / kProjectFile));  // given back, it is removed
+    remove_abandoned(folder);
+    std::error_code ignored;
+    fs::remove(folder / kRunning, ignored);
 }
 
 /// The processes of a killed batch are gone a moment after it: their memory is given back first.
@@ -72,27 +76,26 @@ FileLock::Attempt project_lock(const fs::path& folder) {
 fs::path begin_case(const BatchFolders& folders, const std::string& name) {
     const fs::path folder = folders.of(name);
     fs::path earlier;
-    const FileLock::Attempt writing = project_lock(folder);
+    FileLock::Attempt writing = project_lock(folder);
     const bool is_ours = fs::exists(folder / kRunning);
-    if (has_record(folder) || (is_ours && !read_report(folder).is_null()))
+    if (has_record(folder) || (is_ours && !read_report(folder).is_null())) {
         earlier = moved_away(folders, name);  // a person may have finished what was killed
-    else if (is_ours)
+        writing.lock.reset();                 // its file went along
+        remove_marks(earlier);
+    } else if (is_ours) {
         remove_unfinished(folder);
-    else if (fs::exists(folder) && !fs::is_empty(folder))
+    } else if (fs::exists(folder) && !fs::is_empty(folder)) {
         throw IoError("'" + name + "' in '" + bare_name(folder.parent_path()) +
                       "' exists and is not of a batch: give another --out, or the case another "
                       "name");
+    }
     make_folder(folder);
     mark(folder);
     return earlier;
 }
 
 void end_case(const BatchFolders& folders, const std::string& name) {
-    const fs::path folder = folders.of(name);
-    static_cast<void>(FileLock::acquire(folder / kProjectFile));  // given back, it is removed
-    remove_abandoned(folder);
-    std::error_code ignored;
-    fs::remove(folder / kRunning, ignored);
+    remove_marks(folders.of(name));
 }
 
 void drop_case(const BatchFolders& folders, const std::string& name) {
