@@ -1,6 +1,6 @@
 # Third-party libraries, all of them Debian packages (scripts/setup).
 find_package(VTK 9.1 REQUIRED COMPONENTS
-  CommonCore CommonDataModel CommonExecutionModel FiltersCore IOGeometry IOLegacy IOXML)
+  CommonCore CommonDataModel CommonExecutionModel FiltersCore IOCGNSReader IOGeometry IOLegacy IOXML)
 find_package(CGAL 5.5 REQUIRED)
 # CGAL's Find modules shadow those of other packages: CONFIG is needed from here on.
 find_package(Eigen3 CONFIG REQUIRED)
@@ -50,6 +50,14 @@ set_target_properties(tetgen::tetgen PROPERTIES
   IMPORTED_LOCATION ${TETGEN_LIBRARY}
   INTERFACE_INCLUDE_DIRECTORIES ${TETGEN_INCLUDE_DIR}
   INTERFACE_COMPILE_DEFINITIONS TETLIBRARY)
+
+# CGNS has none either.
+find_path(CGNS_INCLUDE_DIR cgnslib.h REQUIRED)
+find_library(CGNS_LIBRARY cgns REQUIRED)
+add_library(cgns::cgns UNKNOWN IMPORTED)
+set_target_properties(cgns::cgns PROPERTIES
+  IMPORTED_LOCATION ${CGNS_LIBRARY}
+  INTERFACE_INCLUDE_DIRECTORIES ${CGNS_INCLUDE_DIR})
 
 # GDCM exports plain library names without their include folder.
 find_path(GDCM_INCLUDE_DIR gdcmReader.h PATH_SUFFIXES gdcm-3.0 REQUIRED)

@@ -151,6 +151,9 @@ constexpr CatalogueText kTexts[] = {
     {"inlet-in-bend",
      "{inlet} is in a bend (the centerline turns by {turn_deg:%.0f} degrees within two diameters): "
      "the inflow profile is not that of a straight vessel; clip elsewhere or extrude the opening"},
+    {"outlet-without-line",
+     "openfoam.outlets=bifurcations: no centerline leads from the inlet to {outlet}; give "
+     "openfoam.outlets=area, cubes or zero-pressure"},
 };
 
 }  // namespace

@@ -83,15 +83,36 @@ struct OutletWeight {
     double weight = 0.0;
 };
 
-std::vector<GivenOutflow> given_outflows(const Surface& surface, OutletFlow rule, double inflow) {
-    if (rule == OutletFlow::ZeroPressure) return {};
+/// What the share of an outlet is proportional to.
+double outlet_weight(const Patch& outlet, double area, const CfdParameters& parameters) {
+    switch (parameters.outlets) {
+        case OutletFlow::Cubes:
+            return std::pow(area, 1.5);
+        case OutletFlow::Bifurcations: {
+            const auto share = parameters.outlet_shares.find(outlet.name);
+            if (share == parameters.outlet_shares.end())
+                throw InvalidInput("flow conditions: outlet_shares lacks the outlet " +
+                                   outlet.name);
+            return share->second;
+        }
+        case OutletFlow::Area:
+        case OutletFlow::ZeroPressure:
+            break;
+    }
+    return area;
+}
+
+std::vector<GivenOutflow> given_outflows(const Surface& surface, const CfdParameters& parameters,
+                                         double inflow) {
+    if (parameters.outlets == OutletFlow::ZeroPressure ||
+        (parameters.outlets == OutletFlow::Bifurcations && parameters.outlet_shares.empty()))
+        return {};
     std::vector<OutletWeight> outlets;
     double all = 0.0;
     for (std::size_t k = 0; k < surface.patches.size(); ++k) {
         if (surface.patches[k].kind != PatchKind::Outlet) continue;
-        const double area = patch_area(surface, k);
-        outlets.push_back(
-            {surface.patches[k].name, rule == OutletFlow::Cubes ? std::pow(area, 1.5) : area});
+        outlets.push_back({surface.patches[k].name,
+                           outlet_weight(surface.patches[k], patch_area(surface, k), parameters)});
         all += outlets.back().weight;
     }
     const auto largest = std::ranges::max_element(outlets, {}, &OutletWeight::weight);
@@ -106,6 +127,21 @@ std::vector<GivenOutflow> given_outflows(const Surface& surface, OutletFlow rule
 double viscosity_at_shear(const CfdParameters& parameters) {
     return parameters.viscosity_model == ViscosityModel::Carreau ? carreau::kAtShear
                                                                  : parameters.viscosity;
+}
+
+std::string outlets_text(const CfdParameters& parameters) {
+    switch (parameters.outlets) {
+        case OutletFlow::Area:
+            return "by their areas";
+        case OutletFlow::Cubes:
+            return "by the cubes of their diameters (Murray's law)";
+        case OutletFlow::Bifurcations:
+            return "along the centerlines, at each bifurcation by the power" +
+                   formatted(parameters.outlet_exponent, " %g") + " of the vessels' diameters";
+        case OutletFlow::ZeroPressure:
+            break;
+    }
+    return "";
 }
 
 FlowSummary flow_summary(const Surface& surface, const CfdParameters& parameters,
@@ -130,7 +166,7 @@ FlowSummary flow_summary(const Surface& surface, const CfdParameters& parameters
     distribute_flow(parameters, summary.inlets);
     double inflow = 0.0;
     for (const InletFlow& inlet : summary.inlets) inflow += inlet.flow;
-    summary.outflows = given_outflows(surface, parameters.outlets, inflow);
+    summary.outflows = given_outflows(surface, parameters, inflow);
     for (InletFlow& inlet : summary.inlets) {
         inlet.mean_velocity = inlet.flow / inlet.area;  // cm^3/s by mm^2 is m/s
         inlet.reynolds = inlet.mean_velocity * inlet.diameter * 1e-3 * parameters.density /

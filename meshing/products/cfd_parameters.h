@@ -23,7 +23,8 @@ enum class FlowSplit {
 enum class OutletFlow {
     ZeroPressure,  ///< what the resistance of the model's vessels makes of one pressure at all
     Area,          ///< by their areas: all with the same mean velocity
-    Cubes          ///< by the cubes of their diameters (Murray 1926)
+    Cubes,         ///< by the cubes of their diameters (Murray 1926)
+    Bifurcations   ///< by the diameters of the vessels behind each bifurcation on the way
 };
 
 /// How the viscosity of blood depends on the shear rate.
@@ -54,6 +55,9 @@ struct CfdParameters {
     std::optional<FlowSplit> split = std::nullopt;  ///< none: Area
     std::vector<NamedFlow> inlet_flows = {};  ///< in place of it, one for every inlet; or none
     OutletFlow outlets = OutletFlow::ZeroPressure;
+    double outlet_exponent = 2.0;  ///< of the diameters at bifurcations [-], >= 0; 3: Murray
+    /// What OutletFlow::Bifurcations gives each outlet, by name [-]; empty: not found yet.
+    std::map<std::string, double> outlet_shares = {};
     InflowProfile profile = InflowProfile::Parabolic;  ///< Parabolic: as in a long straight duct
     int iterations = 2000;                             ///< largest number of SIMPLE iterations
     double residual = 1e-5;  ///< initial residuals of p and U at which the run stops [-]
@@ -80,7 +84,7 @@ struct FlowSummary {
     std::vector<InletFlow> inlets;
     std::size_t outlets = 0;
     /// All outlets but the largest, through which the rest leaves; none for
-    /// OutletFlow::ZeroPressure.
+    /// OutletFlow::ZeroPressure, and for Bifurcations without `outlet_shares`.
     std::vector<GivenOutflow> outflows = {};
     std::vector<Diagnostic> warnings;  ///< not laminar; inlet in a bend
 };
@@ -92,6 +96,9 @@ inline constexpr double kLargestInletBend = 15.0;  // [deg]
 
 /// Dynamic viscosity for Reynolds numbers: of Carreau's model that of high shear rates [Pa s].
 [[nodiscard]] double viscosity_at_shear(const CfdParameters& parameters);
+
+/// How flows of outlets are given: "by their areas"; empty for OutletFlow::ZeroPressure.
+[[nodiscard]] std::string outlets_text(const CfdParameters& parameters);
 
 /// The flow that the parameters imply on this surface.
 /// \param bends by inlet, turn of the centerline within two diameters [deg]; missing: unknown

@@ -1,5 +1,7 @@
 #include "meshing/products/product_formats.h"
 
+#include "meshing/products/cgns.h"
+#include "meshing/products/fluent.h"
 #include "meshing/products/gmsh.h"
 #include "meshing/products/openfoam_case.h"
 #include "meshing/products/threemf.h"
@@ -28,6 +30,20 @@ const std::vector<VolumeFormat>& volume_formats() {
           .content = "double precision, with boundary triangles and patches"},
          nullptr,
          write_vtu},
+        {{.name = "CGNS",
+          .kind = VolumeMesh,
+          .suffixes = {".cgns"},
+          .content = "in HDF5, with a family and a boundary condition per patch",
+          .unit = "m"},
+         nullptr,
+         write_cgns},
+        {{.name = "Fluent",
+          .kind = VolumeMesh,
+          .suffixes = {".fluent.msh", ".cas"},
+          .content = "text, with a zone per patch: walls, velocity inlets and pressure outlets",
+          .unit = "m"},
+         nullptr,
+         write_fluent},
         {{.name = "Gmsh",
           .kind = VolumeMesh,
           .suffixes = {".msh"},

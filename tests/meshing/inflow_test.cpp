@@ -112,6 +112,17 @@ SCENARIO("Outlets share the flow as they are told to", "[meshing][inflow]") {
             flow_summary(forked, {.flow = 3.0, .outlets = OutletFlow::Cubes});
         CHECK(murray.outflows[0].flow == Approx(3.0 / (1.0 + std::pow(2.0, 1.5))));
     }
+    THEN("shares along the centerlines are given by name, and known only where they were found") {
+        CfdParameters flow{.flow = 3.0, .outlets = OutletFlow::Bifurcations};
+        CHECK(flow_summary(forked, flow).outflows.empty());
+        flow.outlet_shares = {{"wide", 0.2}, {"narrow", 0.8}};
+        const FlowSummary given = flow_summary(forked, flow);
+        REQUIRE(given.outflows.size() == 1);
+        CHECK(given.outflows[0].name == "wide");
+        CHECK(given.outflows[0].flow == Approx(0.6));
+        flow.outlet_shares.erase("narrow");
+        CHECK_THROWS_AS(flow_summary(forked, flow), InvalidInput);
+    }
 }
 
 SCENARIO("Reynolds number and warnings", "[meshing][inflow]") {

@@ -11,11 +11,14 @@
 #include "meshing/products/product_formats.h"
 #include "workbench/colours/shown_measure.h"
 #include "workbench/flow/flow_record.h"
+#include "workbench/flow/outlet_shares.h"
 #include "workbench/report/colour_scale.h"
 
 namespace vesselbench {
 
 namespace {
+
+constexpr double kShareOfLines = 0.3;  ///< of a case's progress; writing has the rest
 
 const VolumeMesh& volume_mesh_of(const Scene& scene) {
     if (!scene.volume_mesh)
@@ -97,8 +100,10 @@ std::vector<ExportFormat> joined_rows() {
             {row, [write = row.write](const Scene& scene, const std::string& path,
                                       const ExportOptions& options, const Progress& progress) {
                  const VolumeMesh& mesh = volume_mesh_of(scene);
-                 write(path, mesh, options.flow, progress, options.provenance);
-                 write_flow_record(path, mesh, options.flow,
+                 const CfdParameters flow = with_outlet_shares(options.flow, boundary_surface(mesh),
+                                                               progress.part(0.0, kShareOfLines));
+                 write(path, mesh, flow, progress.part(kShareOfLines, 1.0), options.provenance);
+                 write_flow_record(path, mesh, flow,
                                    {.provenance = options.provenance,
                                     .ends = options.ends,
                                     .neck = options.neck});

@@ -10,70 +10,78 @@ namespace vesselbench {
 std::vector<Parameter> flow_parameters() {
     using enum ParameterType;
     const CfdParameters d;
-    return {{.name = "flow",
-             .unit = "cm^3/s",
-             .default_value = d.flow,
-             .help = "total inflow of blood through all inlets; split among them",
-             .minimum = 0.0,
-             .above_minimum = true},
-            {.name = "split",
-             .type = Choice,
-             .help = "how several inlets share it: by their areas, or by the cubes of their "
-                     "diameters (Murray); default: area, of a vein cubes",
-             .choices = {"area", "cubes"}},
-            {.name = "inlet_flows",
-             .type = Text,
-             .help = "flow of each inlet [cm^3/s] in place of it: inlet_1:2.5,inlet_2:1.8"},
-            {.name = "outlets",
-             .type = Choice,
-             .default_value = "zero-pressure",
-             .help = "what leaves through the outlets: what one pressure at all of them gives, or "
-                     "shares by their areas or by the cubes of their diameters (Murray), the rest "
-                     "through the largest",
-             .choices = {"zero-pressure", "area", "cubes"}},
-            {.name = "profile",
-             .type = Choice,
-             .default_value = "parabolic",
-             .help = "velocity profile at the inlet: parabolic, as in a long straight vessel with "
-                     "the inlet's shape, or plug, the same everywhere",
-             .choices = {"parabolic", "plug"}},
-            {.name = "density",
-             .unit = "kg/m^3",
-             .default_value = d.density,
-             .help = "of blood",
-             .minimum = 0.0,
-             .above_minimum = true},
-            {.name = "viscosity",
-             .unit = "Pa s",
-             .default_value = d.viscosity,
-             .help = "dynamic viscosity of Newtonian blood, the same for all shear rates",
-             .minimum = 0.0,
-             .above_minimum = true},
-            {.name = "viscosity_model",
-             .type = Choice,
-             .default_value = "newtonian",
-             .help = "newtonian: viscosity; carreau: falls from 0.056 to 0.00345 Pa s with the "
-                     "shear rate (Cho, Kensey 1991)",
-             .choices = {"newtonian", "carreau"}},
-            {.name = "iterations",
-             .type = Integer,
-             .default_value = std::int64_t{d.iterations},
-             .help = "largest number of iterations of simpleFoam; it stops earlier at the residual",
-             .minimum = 1,
-             .maximum = 1000000},
-            {.name = "residual",
-             .unit = "-",
-             .default_value = d.residual,
-             .help = "initial residuals of pressure and velocity at which the run stops",
-             .minimum = 0.0,
-             .maximum = 1.0,
-             .above_minimum = true},
-            {.name = "processes",
-             .type = Integer,
-             .default_value = std::int64_t{d.processes},
-             .help = "number of parts made by decomposePar for mpirun",
-             .minimum = 1,
-             .maximum = 1024}};
+    return {
+        {.name = "flow",
+         .unit = "cm^3/s",
+         .default_value = d.flow,
+         .help = "total inflow of blood through all inlets; split among them",
+         .minimum = 0.0,
+         .above_minimum = true},
+        {.name = "split",
+         .type = Choice,
+         .help = "how several inlets share it: by their areas, or by the cubes of their "
+                 "diameters (Murray); default: area, of a vein cubes",
+         .choices = {"area", "cubes"}},
+        {.name = "inlet_flows",
+         .type = Text,
+         .help = "flow of each inlet [cm^3/s] in place of it: inlet_1:2.5,inlet_2:1.8"},
+        {.name = "outlets",
+         .type = Choice,
+         .default_value = "zero-pressure",
+         .help = "what leaves through the outlets: what one pressure at all of them gives, or "
+                 "shares by their areas, by the cubes of their diameters (Murray), or along the "
+                 "centerlines, bifurcation by bifurcation; the rest through the largest share",
+         .choices = {"zero-pressure", "area", "cubes", "bifurcations"}},
+        {.name = "outlet_exponent",
+         .unit = "-",
+         .default_value = d.outlet_exponent,
+         .help = "of outlets=bifurcations: the vessels behind a bifurcation share by this power "
+                 "of their diameters; 3: Murray",
+         .minimum = 0.0,
+         .maximum = 6.0},
+        {.name = "profile",
+         .type = Choice,
+         .default_value = "parabolic",
+         .help = "velocity profile at the inlet: parabolic, as in a long straight vessel with "
+                 "the inlet's shape, or plug, the same everywhere",
+         .choices = {"parabolic", "plug"}},
+        {.name = "density",
+         .unit = "kg/m^3",
+         .default_value = d.density,
+         .help = "of blood",
+         .minimum = 0.0,
+         .above_minimum = true},
+        {.name = "viscosity",
+         .unit = "Pa s",
+         .default_value = d.viscosity,
+         .help = "dynamic viscosity of Newtonian blood, the same for all shear rates",
+         .minimum = 0.0,
+         .above_minimum = true},
+        {.name = "viscosity_model",
+         .type = Choice,
+         .default_value = "newtonian",
+         .help = "newtonian: viscosity; carreau: falls from 0.056 to 0.00345 Pa s with the "
+                 "shear rate (Cho, Kensey 1991)",
+         .choices = {"newtonian", "carreau"}},
+        {.name = "iterations",
+         .type = Integer,
+         .default_value = std::int64_t{d.iterations},
+         .help = "largest number of iterations of simpleFoam; it stops earlier at the residual",
+         .minimum = 1,
+         .maximum = 1000000},
+        {.name = "residual",
+         .unit = "-",
+         .default_value = d.residual,
+         .help = "initial residuals of pressure and velocity at which the run stops",
+         .minimum = 0.0,
+         .maximum = 1.0,
+         .above_minimum = true},
+        {.name = "processes",
+         .type = Integer,
+         .default_value = std::int64_t{d.processes},
+         .help = "number of parts made by decomposePar for mpirun",
+         .minimum = 1,
+         .maximum = 1024}};
 }
 
 const Operation& flow_table() {
@@ -100,9 +108,10 @@ std::vector<NamedFlow> flows_in(const std::string& text) {
 }
 
 OutletFlow outlet_flow_in(const std::string& text) {
-    return text == "area"    ? OutletFlow::Area
-           : text == "cubes" ? OutletFlow::Cubes
-                             : OutletFlow::ZeroPressure;
+    return text == "area"           ? OutletFlow::Area
+           : text == "cubes"        ? OutletFlow::Cubes
+           : text == "bifurcations" ? OutletFlow::Bifurcations
+                                    : OutletFlow::ZeroPressure;
 }
 
 }  // namespace
@@ -116,6 +125,7 @@ CfdParameters flow_from(const Arguments& arguments) {
     take("density", flow.density);
     take("viscosity", flow.viscosity);
     take("residual", flow.residual);
+    take("outlet_exponent", flow.outlet_exponent);
     if (arguments.has("split"))
         flow.split = arguments.text("split") == "cubes" ? FlowSplit::Cubes : FlowSplit::Area;
     if (arguments.has("inlet_flows")) flow.inlet_flows = flows_in(arguments.text("inlet_flows"));

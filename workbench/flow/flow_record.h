@@ -44,12 +44,13 @@ struct FlowRecord {
     std::string provenance;  ///< of the model; empty: not known
     std::string mesh;        ///< SHA-256 of the mesh's files
     std::size_t cells = 0;
-    Bounds bounds;                ///< [mm]
-    double density = 0.0;         ///< [kg/m^3]
-    double viscosity = 0.0;       ///< dynamic; of Carreau's model that of high shear rates [Pa s]
-    bool carreau = false;         ///< viscosity depends on the shear rate
-    bool given_outflows = false;  ///< through all outlets but the largest; else one pressure at all
-    bool parabolic = true;        ///< profile at the inlets; else plug
+    Bounds bounds;                  ///< [mm]
+    double density = 0.0;           ///< [kg/m^3]
+    double viscosity = 0.0;         ///< dynamic; of Carreau's model that of high shear rates [Pa s]
+    bool carreau = false;           ///< viscosity depends on the shear rate
+    bool given_outflows = false;    ///< through all outlets but one; else one pressure at all
+    std::string outflow_rule = {};  ///< how they were given, as outlets_text(); empty: not known
+    bool parabolic = true;          ///< profile at the inlets; else plug
     std::vector<std::string> walls;  ///< names of the patches
     std::vector<RecordedOpening> openings;
     /// Where the vessel was cut and extended: beyond them, the wall is not its own. Empty: not

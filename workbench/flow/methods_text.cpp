@@ -52,6 +52,14 @@ std::string run_end_text(const FlowResults& results) {
 
 }  // namespace
 
+std::string outlets_text(const FlowRecord& record) {
+    if (!record.given_outflows)
+        return "; the pressure was 0 at all outlets, where backflow entered at rest. ";
+    return "; the outlets' flows were prescribed" +
+           (record.outflow_rule.empty() ? "" : " " + record.outflow_rule) +
+           ", but at the largest, whose pressure was 0. ";
+}
+
 std::string methods_text(const FlowResults& results) {
     const FlowRecord& record = results.flow.record;
     return "The flow was computed as steady, laminar flow of an " + fluid_text(record) +
@@ -59,10 +67,7 @@ std::string methods_text(const FlowResults& results) {
            results.solver + " [1] (SIMPLEC algorithm [2], second-order schemes), on a mesh of " +
            std::to_string(record.cells) + " cells. " +
            (record.parabolic ? "The profile of developed laminar flow" : "A uniform velocity") +
-           " was prescribed at " + inlets_text(results) +
-           (record.given_outflows
-                ? "; flows were prescribed at all outlets but the largest, whose pressure was 0. "
-                : "; the pressure was 0 at all outlets, where backflow entered at rest. ") +
+           " was prescribed at " + inlets_text(results) + outlets_text(record) +
            run_end_text(results) + " The imbalance of mass was" +
            formatted(100.0 * results.imbalance, " %.2g %%") +
            " of the inflow. Wall shear stress is the tangential stress that the blood exerts on "

@@ -14,6 +14,7 @@
 #include "workbench/case/label_choice.h"
 #include "workbench/case/purposes.h"
 #include "workbench/export/products.h"
+#include "workbench/flow/outlet_shares.h"
 #include "workbench/operations/table.h"
 #include "workbench/prepare/acceptance_gate.h"
 #include "workbench/prepare/apply_recipe.h"
@@ -312,6 +313,9 @@ PrepareSummary finished(Session& session, const Recipe& rest, const PrepareOptio
     try {
         pass_gate(session, options.purpose, prepared.reviewers, options.out, tell,
                   progress.silent());
+        if (prepared.scene.volume_mesh)
+            prepared.flow = with_outlet_shares(std::move(prepared.flow), surface_of(prepared.scene),
+                                               progress.silent());
         return write_results(session, options, std::move(prepared), tell,
                              progress.part(kEditsShare, 1.0));
     } catch (const InvalidInput& error) {

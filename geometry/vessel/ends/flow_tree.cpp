@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <ranges>
 #include <utility>
 
 #include "geometry/kernel/shortest_paths.h"
@@ -40,6 +41,32 @@ std::vector<double> distances_from(const CenterlineGraph& graph, std::size_t tip
     return distance;
 }
 
+/// A node, and the branch by which the shortest way from a tip comes to it.
+struct Step {
+    std::size_t node = 0, branch = 0;
+};
+
+/// To all nodes that lines connect with the tip, the nearest first.
+std::vector<Step> steps_from(const CenterlineGraph& graph, std::size_t tip) {
+    std::vector<double> lengths;
+    for (const CenterlineBranch& branch : graph.branches) lengths.push_back(branch_length(branch));
+    const std::vector<double> distance = distances_from(graph, tip, lengths);
+    std::vector<std::size_t> order(graph.nodes.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, {}, [&](std::size_t n) { return distance[n]; });
+    std::vector<Step> steps;
+    for (const std::size_t n : order) {
+        if (!std::isfinite(distance[n])) break;
+        for (const std::size_t b : graph.nodes[n].branches) {
+            const std::size_t before = other_node(graph, b, n);
+            if (before == n || distance[before] + lengths[b] != distance[n]) continue;
+            steps.push_back({n, b});
+            break;
+        }
+    }
+    return steps;
+}
+
 }  // namespace
 
 Vec3 direction_from(const CenterlineGraph& graph, std::size_t branch, std::size_t node) {
@@ -54,26 +81,37 @@ Vec3 direction_from(const CenterlineGraph& graph, std::size_t branch, std::size_
 }
 
 std::vector<std::vector<SharedVessel>> vessels_from(const CenterlineGraph& graph, std::size_t tip) {
-    std::vector<double> lengths;
-    for (const CenterlineBranch& branch : graph.branches) lengths.push_back(branch_length(branch));
-    const std::vector<double> distance = distances_from(graph, tip, lengths);
     const std::vector<double> courses = course_diameters(graph);
-    std::vector<std::size_t> order(graph.nodes.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::ranges::stable_sort(order, {}, [&](std::size_t n) { return distance[n]; });
     std::vector<std::vector<SharedVessel>> leading(graph.nodes.size());
-    for (const std::size_t n : order) {
-        if (!std::isfinite(distance[n])) break;
-        for (const std::size_t b : graph.nodes[n].branches) {
-            const std::size_t before = other_node(graph, b, n);
-            if (before == n || distance[before] + lengths[b] != distance[n]) continue;
-            leading[n] = leading[before];
-            if (!graph.nodes[n].is_tip() && !graph.nodes[before].is_tip())
-                leading[n].insert(leading[n].begin(), {b, courses[b]});
-            break;
-        }
+    for (const auto& [n, b] : steps_from(graph, tip)) {
+        const std::size_t before = other_node(graph, b, n);
+        leading[n] = leading[before];
+        if (!graph.nodes[n].is_tip() && !graph.nodes[before].is_tip())
+            leading[n].insert(leading[n].begin(), {b, courses[b]});
     }
     return leading;
+}
+
+std::vector<double> shares_of_outlets(const CenterlineGraph& graph, std::size_t inlet,
+                                      std::span<const std::size_t> outlets, double exponent) {
+    const std::vector<Step> steps = steps_from(graph, inlet);
+    std::vector<bool> leads(graph.nodes.size(), false);
+    for (const std::size_t outlet : outlets) leads[outlet] = true;
+    for (const auto& [n, b] : std::views::reverse(steps))
+        if (leads[n]) leads[other_node(graph, b, n)] = true;
+    std::vector<double> weights = course_diameters(graph), behind(graph.nodes.size(), 0.0);
+    for (double& weight : weights) weight = std::pow(weight, exponent);
+    for (const auto& [n, b] : steps)
+        if (leads[n]) behind[other_node(graph, b, n)] += weights[b];
+    std::vector<double> share(graph.nodes.size(), 0.0);
+    share[inlet] = 1.0;
+    for (const auto& [n, b] : steps) {
+        const std::size_t before = other_node(graph, b, n);
+        if (leads[n]) share[n] = share[before] * weights[b] / behind[before];
+    }
+    std::vector<double> shares;
+    for (const std::size_t outlet : outlets) shares.push_back(share[outlet]);
+    return shares;
 }
 
 std::vector<double> course_diameters(const CenterlineGraph& graph) {

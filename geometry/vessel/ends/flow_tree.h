@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -37,6 +38,14 @@ struct SharedVessel {
 /// #nodes, the one next to the node first. Those that end at a tip are none.
 [[nodiscard]] std::vector<std::vector<SharedVessel>> vessels_from(const CenterlineGraph& graph,
                                                                   std::size_t tip);
+
+/// How the flow of a tip divides among others: at each furcation, the vessels behind it that lead
+/// to one of them share by a power of their diameters along their courses. With 3 the shear is the
+/// same in all (Murray 1926). \param inlet, outlets nodes of the graph
+/// \return shares of the outlets, in their order [-]; 0 where no line leads to one
+[[nodiscard]] std::vector<double> shares_of_outlets(const CenterlineGraph& graph, std::size_t inlet,
+                                                    std::span<const std::size_t> outlets,
+                                                    double exponent);
 
 /// A tree whose root is looked for.
 class FlowTree {
