@@ -48,6 +48,9 @@ constexpr CatalogueText kTexts[] = {
     {"vertex-not-finite",
      "vertex {vertex:%.0f} has a coordinate that is not a finite number: export the surface again "
      "from its source"},
+    {"vertex-too-far",
+     "vertex {vertex:%.0f} lies more than 10 km from the origin: the file is damaged, or its unit "
+     "another one; copy or export it again"},
     {"rim-crosses-itself",
      "the rim of an opening or a hole crosses itself, or two of its corners coincide: use {fix} "
      "first, or choose another place"},
@@ -200,6 +203,10 @@ constexpr CatalogueText kTexts[] = {
     {"no-section-at-distance",
      "the branch with its tip at {place} has no closed section {distance_mm} mm from its tip: "
      "choose another {fix}"},
+    {"wall-torn",
+     "the surface is no vessel's wall: its {triangles#triangle} would have {lines#line}; the file "
+     "is "
+     "damaged: copy or export it again"},
     {"no-centerline",
      "no centerline found: the lumen is thinner than the search grid, or not closed; use {fix} "
      "first, or {fix2} to keep the vessels of interest only"},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include <catch2/catch.hpp>
 
@@ -312,6 +313,30 @@ SCENARIO("A surface without a centerline is rejected with a reason", "[geometry]
     CHECK_THROWS_AS(compute_centerlines(open_tube(2, 20, 16, 16), {.spacing = 3.0}), InvalidInput);
     CHECK_THROWS_AS(compute_centerlines(open_tube(2, 20, 16, 16), {.ends = {{500, 0, 0}}}),
                     InvalidInput);
+}
+
+SCENARIO("Lines of damaged surfaces cost no more than those of whole ones",
+         "[geometry][centerlines]") {
+    const Surface tube = closed_tube(2.0, 20.0, 12, 12);
+    Positions points = tube.points();
+    GIVEN("a vertex beyond anything on earth") {
+        points[5].x() = 4e33;
+        CHECK_THROWS_WITH(compute_centerlines(tube.with_positions(points)),
+                          Catch::Contains("vertex 5") && Catch::Contains("10 km"));
+    }
+    GIVEN(
+        "a vertex so far away that a grid of the box's volume has a border of billions of voxels") {
+        points[5].x() = 9e6;
+        CHECK_THROWS_AS(compute_centerlines(tube.with_positions(points)), AlgorithmFailure);
+    }
+    GIVEN("vertices that are swapped with others in their neighbourhood") {
+        std::mt19937 random(3);
+        constexpr std::ptrdiff_t kNear = 24;
+        for (auto from = points.begin(); points.end() - from > kNear; from += kNear)
+            std::shuffle(from, from + kNear, random);
+        CHECK_THROWS_WITH(compute_centerlines(tube.with_positions(points)),
+                          Catch::Contains("damaged"));
+    }
 }
 
 SCENARIO("Every surface of the collection shows its ends", "[geometry][centerlines][slow]") {

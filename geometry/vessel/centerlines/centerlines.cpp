@@ -30,8 +30,11 @@ constexpr double kVoxelsPerRadius = 3.5;  ///< of thin vessels
 constexpr double kMostLumen = 1.5e6;      ///< voxels
 constexpr double kMostRefined = 3.0e6;    ///< voxels of a finer grid, tried for false loops
 constexpr double kMostGrid = 4.0e7;       ///< voxels including the empty ones around
+constexpr double kMostBorder = 1.25;      ///< times as many with the border of a flat or long box
+constexpr double kMostFiner = 3.4;        ///< times as many in finer grids: one finer one at least
 constexpr double kLeastLumen = 3e4;       ///< voxels: finer than thin vessels need, for good lines
 constexpr double kSmallestComponent = 0.01;
+constexpr std::size_t kLeastTriangles = 8;  ///< of the wall, a branch: with fewer, it is torn
 constexpr int kAttempts = 3;
 /// A blind end's least distance beyond its furcation [voxels]: of a thin branch, and of a wider
 /// one. Thin vessels have radii of 2 voxels, and short branches of them hardly rise, least of all
@@ -49,11 +52,15 @@ void check(const CenterlineParameters& p) {
     }
 }
 
-double first_spacing(const VesselWall& wall, double thin) {
+Eigen::AlignedBox3d box_of(const VesselWall& wall) {
     Eigen::AlignedBox3d box;
     for (const Triangle& t : wall.closed) {
         for (const VertexId v : t) box.extend(wall.points[v]);
     }
+    return box;
+}
+
+double first_spacing(const VesselWall& wall, const Eigen::AlignedBox3d& box, double thin) {
     double spacing = thin / kVoxelsPerRadius;
     for (const VesselEnd& end : wall.ends) {
         if (end.radius > 0.3 * thin) {
@@ -62,7 +69,9 @@ double first_spacing(const VesselWall& wall, double thin) {
     }
     spacing = std::min(spacing, std::cbrt(wall.volume / kLeastLumen));
     spacing = std::max(spacing, std::cbrt(wall.volume / kMostLumen));
-    return std::max(spacing, std::cbrt(box.volume() / kMostGrid));
+    spacing = std::max(spacing, std::cbrt(box.volume() / kMostGrid));
+    while (voxel_count(box, spacing) > kMostBorder * kMostGrid) spacing *= 1.25;
+    return spacing;
 }
 
 /// Anchors of the thinning.
@@ -108,16 +117,11 @@ void anchor_points(const Positions& points, const LumenGrid& grid, Anchors& anch
     }
 }
 
-VoxelId farthest(const std::vector<float>& distance, const LumenGrid& grid) {
-    VoxelId best = grid.voxels.front();
-    float most = -1.0F;
-    for (const VoxelId v : grid.voxels) {
-        if (std::isfinite(distance[v]) && distance[v] > most) {
-            most = distance[v];
-            best = v;
-        }
-    }
-    return best;
+/// Of the lowest number among equals.
+VoxelId farthest(const std::vector<float>& distance, const std::vector<VoxelId>& reached) {
+    return *std::ranges::max_element(reached, [&](VoxelId a, VoxelId b) {
+        return distance[a] != distance[b] ? distance[a] < distance[b] : a > b;
+    });
 }
 
 bool near_opening(const Anchors& anchors, const Vec3& p) {
@@ -128,21 +132,17 @@ bool near_opening(const Anchors& anchors, const Vec3& p) {
 /// Candidates for blind ends, one component after the other. A component without any known end
 /// starts from one of its two farthest points.
 void anchor_blind_ends(const LumenGrid& grid, Anchors& anchors, const Progress& cancel) {
-    std::vector<float> all(grid.lumen.size(), std::numeric_limits<float>::infinity());
+    constexpr float kUnreached = std::numeric_limits<float>::infinity();
+    std::vector<float> all(grid.lumen.size(), kUnreached), from_seed = all;
     for (const VoxelId seed : grid.voxels) {
         if (std::isfinite(all[seed])) continue;
-        const auto from_seed = geodesic_distance(grid, seed, cancel);
-        VoxelId root = farthest(from_seed, grid);
-        bool known = false;
-        for (const VoxelId v : anchors.fixed) {
-            if (!known && std::isfinite(from_seed[v])) {
-                root = v;
-                known = true;
-            }
-        }
-        if (!known) anchors.blind.push_back(root);
-        const auto from_root = geodesic_distance(grid, root, cancel);
-        for (const VoxelId v : grid.voxels) all[v] = std::min(all[v], from_root[v]);
+        const auto component = add_geodesic_distances(grid, seed, from_seed, cancel);
+        const auto known = std::ranges::find_if(
+            anchors.fixed, [&](VoxelId v) { return std::isfinite(from_seed[v]); });
+        const VoxelId root = known != anchors.fixed.end() ? *known : farthest(from_seed, component);
+        if (known == anchors.fixed.end()) anchors.blind.push_back(root);
+        for (const VoxelId v : component) from_seed[v] = kUnreached;  // other components are apart
+        add_geodesic_distances(grid, root, all, cancel);
     }
     for (const auto& [v, rise] : summits(grid, all, kLeastRise * grid.spacing, cancel)) {
         const bool taken = std::count(anchors.fixed.begin(), anchors.fixed.end(), v) +
@@ -256,6 +256,14 @@ struct Lines {
     std::vector<Stub> stubs;
 };
 
+/// Centring the lines of a torn wall would take long, and they would mean nothing.
+void require_whole(const VesselWall& wall, const CenterlineGraph& graph) {
+    if (graph.branches.size() * kLeastTriangles <= wall.closed.size()) return;
+    throw DiagnosedFailure({.code = "wall-torn",
+                            .figures = {{"triangles", static_cast<double>(wall.closed.size())},
+                                        {"lines", static_cast<double>(graph.branches.size())}}});
+}
+
 Lines find_lines(const Surface& surface, const CenterlineParameters& parameters,
                  const Progress& progress) {
     check(parameters);
@@ -264,12 +272,16 @@ Lines find_lines(const Surface& surface, const CenterlineParameters& parameters,
         throw DiagnosedInput({.code = "no-lumen", .remedies = {{.operation = "repair"}}});
     }
     const double thin = thin_radius(wall, kThinFraction);
-    double spacing = first_spacing(wall, thin);
+    const Eigen::AlignedBox3d box = box_of(wall);
+    double spacing = first_spacing(wall, box, thin);
     Attempt attempt;
     for (int k = 0; k < kAttempts; ++k, spacing /= 1.5) {
-        if (k > 0 && wall.volume > kMostRefined * spacing * spacing * spacing) break;
+        if (k > 0 && (wall.volume > kMostRefined * spacing * spacing * spacing ||
+                      voxel_count(box, spacing) > kMostFiner * kMostBorder * kMostGrid))
+            break;
         const Progress part = progress.part(0.2 * k, 0.2 * (k + 1));
         Attempt next = skeletonise(wall, parameters, spacing, part);
+        require_whole(wall, next.rough.graph);
         if (attempt.is_lost() || next.loops <= attempt.loops) attempt = std::move(next);
         const bool false_loops = wall.handles >= 0 && attempt.loops > wall.handles;
         if (!attempt.is_lost() && !false_loops) break;

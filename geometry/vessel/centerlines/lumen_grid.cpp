@@ -133,6 +133,11 @@ private:
     std::vector<Crossing> crossings_;
 };
 
+/// Voxels along an axis of a grid around so long a box.
+double voxels_along(double length, double spacing) {
+    return std::ceil(length / spacing) + 2 * kBorder + 1;
+}
+
 LumenGrid empty_grid(const Positions& points, std::span<const Triangle> triangles, double spacing) {
     Eigen::AlignedBox3d box;
     for (const Triangle& t : triangles) {
@@ -142,7 +147,7 @@ LumenGrid empty_grid(const Positions& points, std::span<const Triangle> triangle
     grid.spacing = spacing;
     grid.origin = box.min() - Vec3::Constant(kBorder * spacing);
     for (int a = 0; a < 3; ++a) {
-        grid.size[a] = static_cast<int>(std::ceil(box.sizes()[a] / spacing)) + 2 * kBorder + 1;
+        grid.size[a] = static_cast<int>(voxels_along(box.sizes()[a], spacing));
     }
     return grid;
 }
@@ -291,6 +296,12 @@ std::array<float, 26> LumenGrid::neighbour_lengths() const {
     return lengths;
 }
 
+double voxel_count(const Eigen::AlignedBox3d& box, double spacing) {
+    double count = 1.0;
+    for (const double length : box.sizes()) count *= voxels_along(length, spacing);
+    return count;
+}
+
 LumenGrid voxelise(const Positions& points, std::span<const Triangle> triangles, double spacing,
                    InsideRule rule, const Progress& progress) {
     LumenGrid grid = empty_grid(points, triangles, spacing);
@@ -369,21 +380,22 @@ std::size_t keep_large_components(LumenGrid& grid, double fraction) {
     return kept;
 }
 
-std::vector<float> geodesic_distance(const LumenGrid& grid, VoxelId from, const Progress& cancel) {
+std::vector<VoxelId> add_geodesic_distances(const LumenGrid& grid, VoxelId from,
+                                            std::vector<float>& distances, const Progress& cancel) {
     const auto offsets = grid.neighbour_offsets();
     const auto lengths = grid.neighbour_lengths();
-    std::vector<float> distance(grid.lumen.size(), std::numeric_limits<float>::infinity());
-    ShortestPaths paths(distance);
+    std::vector<VoxelId> reached;
+    ShortestPaths paths(distances);
     paths.lower(from, 0.0F);
-    std::size_t turns = 0;
     while (const auto at = paths.next()) {
-        if (turns++ % kTurns == 0) cancel.check_cancelled();
+        if (reached.size() % kTurns == 0) cancel.check_cancelled();
+        reached.push_back(at->vertex);
         for (std::size_t n = 0; n < 26; ++n) {
             const auto w = static_cast<VoxelId>(static_cast<int>(at->vertex) + offsets[n]);
             if (grid.lumen[w]) paths.lower(w, at->distance + lengths[n]);
         }
     }
-    return distance;
+    return reached;
 }
 
 }  // namespace vesselbench

@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "geometry/kernel/progress.h"
 #include "geometry/kernel/topology.h"
 #include "geometry/kernel/vec3.h"
@@ -57,6 +59,10 @@ enum class InsideRule : std::uint8_t {
     Parity    ///< an odd number of crossings: for any orientation
 };
 
+/// Voxels of the grid that `voxelise` makes around such a box, a border included. Not limited by
+/// what an integer can hold.
+[[nodiscard]] double voxel_count(const Eigen::AlignedBox3d& box, double spacing);
+
 /// Voxels with their centre inside the closed triangles (majority of the scan lines of three axes,
 /// so that small defects do no harm) and at least 0.87 voxels away from them: vessels that nearly
 /// touch never become neighbours.
@@ -85,9 +91,11 @@ struct LumenParts {
 /// \return the number of components kept
 std::size_t keep_large_components(LumenGrid& grid, double fraction);
 
-/// Shortest path length [mm] through the lumen from a voxel to every lumen voxel, #voxels; infinite
-/// if there is no path. \throw Cancelled if the user cancels
-[[nodiscard]] std::vector<float> geodesic_distance(const LumenGrid& grid, VoxelId from,
-                                                   const Progress& cancel);
+/// Shortest path length [mm] through the lumen from a voxel to every lumen voxel that a path leads
+/// to, whose distances are set. \return these voxels, the nearest first
+/// \param distances #voxels, infinite for the voxels to reach
+/// \throw Cancelled if the user cancels
+std::vector<VoxelId> add_geodesic_distances(const LumenGrid& grid, VoxelId from,
+                                            std::vector<float>& distances, const Progress& cancel);
 
 }  // namespace vesselbench
