@@ -51,13 +51,8 @@ set_target_properties(tetgen::tetgen PROPERTIES
   INTERFACE_INCLUDE_DIRECTORIES ${TETGEN_INCLUDE_DIR}
   INTERFACE_COMPILE_DEFINITIONS TETLIBRARY)
 
-# CGNS has none either.
+# The CGNS library is loaded at run time, where a file is written.
 find_path(CGNS_INCLUDE_DIR cgnslib.h REQUIRED)
-find_library(CGNS_LIBRARY cgns REQUIRED)
-add_library(cgns::cgns UNKNOWN IMPORTED)
-set_target_properties(cgns::cgns PROPERTIES
-  IMPORTED_LOCATION ${CGNS_LIBRARY}
-  INTERFACE_INCLUDE_DIRECTORIES ${CGNS_INCLUDE_DIR})
 
 # GDCM exports plain library names without their include folder.
 find_path(GDCM_INCLUDE_DIR gdcmReader.h PATH_SUFFIXES gdcm-3.0 REQUIRED)

@@ -64,7 +64,8 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME vesselbench)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "libegl1, libgl1-mesa-dri")  # opened at run time
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "openssh-client")        # verifies reviewers' signatures
+# Verifies reviewers' signatures; writes CGNS files.
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "openssh-client, libcgns3.4")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "openfoam, python3-vesselbench")
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
 "workbench that makes models of blood vessels fit for use

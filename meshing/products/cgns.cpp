@@ -5,6 +5,7 @@
 #include <set>
 
 #include <cgnslib.h>
+#include <dlfcn.h>
 
 #include "geometry/formats/comment_line.h"
 #include "geometry/kernel/errors.h"
@@ -22,20 +23,33 @@ constexpr std::size_t kLongestName = 32;
 /// Exponents of mass, length, time, temperature and angle.
 constexpr float kLength[] = {0, 1, 0, 0, 0};
 
+/// A function of the CGNS library, which is loaded where a file is written: it brings some thirty
+/// others, among them HDF5 and what reads files over a network.
+template <class Function>
+Function* loaded(const char* name) {
+    static void* const library = dlopen("libcgns.so.3.4", RTLD_NOW | RTLD_LOCAL);
+    if (library == nullptr)
+        throw IoError("CGNS: its library is missing here: install the package libcgns3.4");
+    return reinterpret_cast<Function*>(dlsym(library, name));
+}
+
+// NOLINTNEXTLINE(cppcoreguidelines-macro-usage): a function's type and its name
+#define LOADED(function) (*loaded<decltype(function)>(#function))
+
 void check(int error) {
-    if (error != CG_OK) throw IoError(std::string("CGNS: ") + cg_get_error());
+    if (error != CG_OK) throw IoError(std::string("CGNS: ") + LOADED(cg_get_error)());
 }
 
 /// A file that is being written: its one base and zone have the number 1.
 class CgnsFile {
 public:
     explicit CgnsFile(const std::string& path) {
-        check(cg_set_file_type(CG_FILE_HDF5));
-        check(cg_open(path.c_str(), CG_MODE_WRITE, &number_));
+        check(LOADED(cg_set_file_type)(CG_FILE_HDF5));
+        check(LOADED(cg_open)(path.c_str(), CG_MODE_WRITE, &number_));
     }
 
     ~CgnsFile() {
-        if (open_) cg_close(number_);
+        if (open_) LOADED(cg_close)(number_);
     }
 
     CgnsFile(const CgnsFile&) = delete;
@@ -44,36 +58,36 @@ public:
     /// Whatever a buffer held back may fail here.
     void close() {
         open_ = false;
-        check(cg_close(number_));
+        check(LOADED(cg_close)(number_));
     }
 
     void add_base(const std::string& provenance) {
         int base = 0;
-        check(cg_base_write(number_, "vesselbench", 3, 3, &base));
-        check(cg_goto(number_, 1, "end"));
-        check(cg_dataclass_write(CGNS_ENUMV(Dimensional)));
-        check(cg_units_write(CGNS_ENUMV(Kilogram), CGNS_ENUMV(Meter), CGNS_ENUMV(Second),
-                             CGNS_ENUMV(Kelvin), CGNS_ENUMV(Radian)));
+        check(LOADED(cg_base_write)(number_, "vesselbench", 3, 3, &base));
+        check(LOADED(cg_goto)(number_, 1, "end"));
+        check(LOADED(cg_dataclass_write)(CGNS_ENUMV(Dimensional)));
+        check(LOADED(cg_units_write)(CGNS_ENUMV(Kilogram), CGNS_ENUMV(Meter), CGNS_ENUMV(Second),
+                                     CGNS_ENUMV(Kelvin), CGNS_ENUMV(Radian)));
         if (!provenance.empty())
-            check(cg_descriptor_write("Provenance", comment_line(provenance).c_str()));
+            check(LOADED(cg_descriptor_write)("Provenance", comment_line(provenance).c_str()));
     }
 
     void add_zone(const VolumeMesh& mesh) {
         const cgsize_t sizes[] = {static_cast<cgsize_t>(mesh.points.size()),
                                   static_cast<cgsize_t>(mesh.cell_count()), 0};
         int zone = 0;
-        check(cg_zone_write(number_, 1, "lumen", sizes, CGNS_ENUMV(Unstructured), &zone));
+        check(LOADED(cg_zone_write)(number_, 1, "lumen", sizes, CGNS_ENUMV(Unstructured), &zone));
         const char* const names[] = {"CoordinateX", "CoordinateY", "CoordinateZ"};
         std::vector<double> lengths(mesh.points.size());
         for (int axis = 0; axis < 3; ++axis) {
             std::ranges::transform(mesh.points, lengths.begin(),
                                    [&](const Vec3& p) { return p[axis] * kMetres; });
             int coordinate = 0;
-            check(cg_coord_write(number_, 1, 1, CGNS_ENUMV(RealDouble), names[axis], lengths.data(),
-                                 &coordinate));
-            check(cg_goto(number_, 1, "Zone_t", 1, "GridCoordinates_t", 1, "DataArray_t",
-                          coordinate, "end"));
-            check(cg_exponents_write(CGNS_ENUMV(RealSingle), kLength));
+            check(LOADED(cg_coord_write)(number_, 1, 1, CGNS_ENUMV(RealDouble), names[axis],
+                                         lengths.data(), &coordinate));
+            check(LOADED(cg_goto)(number_, 1, "Zone_t", 1, "GridCoordinates_t", 1, "DataArray_t",
+                                  coordinate, "end"));
+            check(LOADED(cg_exponents_write)(CGNS_ENUMV(RealSingle), kLength));
         }
     }
 
@@ -88,22 +102,22 @@ public:
             for (const VertexId v : element) corners.push_back(static_cast<cgsize_t>(v) + 1);
         const cgsize_t last = elements_ + static_cast<cgsize_t>(elements.size());
         int section = 0;
-        check(cg_section_write(number_, 1, 1, name.c_str(), shape, elements_ + 1, last, 0,
-                               corners.data(), &section));
+        check(LOADED(cg_section_write)(number_, 1, 1, name.c_str(), shape, elements_ + 1, last, 0,
+                                       corners.data(), &section));
         elements_ = last;
     }
 
     /// A boundary condition, and a family of its name, for the elements after the `first` ones.
     void add_patch(const std::string& name, CGNS_ENUMT(BCType_t) kind, cgsize_t first) {
         int family = 0, condition = 0;
-        check(cg_family_write(number_, 1, name.c_str(), &family));
-        check(cg_fambc_write(number_, 1, family, "FamBC", kind, &condition));
+        check(LOADED(cg_family_write)(number_, 1, name.c_str(), &family));
+        check(LOADED(cg_fambc_write)(number_, 1, family, "FamBC", kind, &condition));
         const cgsize_t range[] = {first + 1, elements_};
-        check(cg_boco_write(number_, 1, 1, name.c_str(), CGNS_ENUMV(FamilySpecified),
-                            CGNS_ENUMV(PointRange), 2, range, &condition));
-        check(cg_boco_gridlocation_write(number_, 1, 1, condition, CGNS_ENUMV(FaceCenter)));
-        check(cg_goto(number_, 1, "Zone_t", 1, "ZoneBC_t", 1, "BC_t", condition, "end"));
-        check(cg_famname_write(name.c_str()));
+        check(LOADED(cg_boco_write)(number_, 1, 1, name.c_str(), CGNS_ENUMV(FamilySpecified),
+                                    CGNS_ENUMV(PointRange), 2, range, &condition));
+        check(LOADED(cg_boco_gridlocation_write)(number_, 1, 1, condition, CGNS_ENUMV(FaceCenter)));
+        check(LOADED(cg_goto)(number_, 1, "Zone_t", 1, "ZoneBC_t", 1, "BC_t", condition, "end"));
+        check(LOADED(cg_famname_write)(name.c_str()));
     }
 
     [[nodiscard]] cgsize_t elements() const { return elements_; }
