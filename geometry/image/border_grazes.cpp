@@ -123,11 +123,20 @@ Grazes grazes_of(const Image& mask, int side) {
     return grazes;
 }
 
-/// The mask with a voxel around it: outside where a wall touches the border, else as the border.
-Image with_border(const Image& mask, const std::array<Grazes, 6>& grazes) {
+/// By side: 1 where the mask gets a layer of voxels.
+using WidenedSides = std::array<int, 6>;
+
+/// The mask with a voxel beyond the sides: outside where a wall touches the border, else as the
+/// border.
+Image with_border(const Image& mask, const std::array<Grazes, 6>& grazes,
+                  const WidenedSides& sides) {
     Image wider = mask;
-    for (int& size : wider.size) size += 2;
-    wider.index_to_patient.topRightCorner<3, 1>() = mask.to_patient(Vec3::Constant(-1.0));
+    Vec3 first;
+    for (std::size_t a = 0; a < 3; ++a) {
+        wider.size[a] += sides[2 * a] + sides[2 * a + 1];
+        first[static_cast<Eigen::Index>(a)] = -sides[2 * a];
+    }
+    wider.index_to_patient.topRightCorner<3, 1>() = mask.to_patient(first);
     const auto value = [&](const VoxelIndex& at) {
         VoxelIndex nearest = at;
         for (std::size_t a = 0; a < 3; ++a)
@@ -142,22 +151,25 @@ Image with_border(const Image& mask, const std::array<Grazes, 6>& grazes) {
     };
     std::vector<float> voxels;
     voxels.reserve(wider.voxel_count());
-    for (int k = -1; k <= mask.size[2]; ++k)
-        for (int j = -1; j <= mask.size[1]; ++j)
-            for (int i = -1; i <= mask.size[0]; ++i) voxels.push_back(value({i, j, k}));
+    for (int k = -sides[4]; k < mask.size[2] + sides[5]; ++k)
+        for (int j = -sides[2]; j < mask.size[1] + sides[3]; ++j)
+            for (int i = -sides[0]; i < mask.size[0] + sides[1]; ++i)
+                voxels.push_back(value({i, j, k}));
     return with_voxels(std::move(wider), std::move(voxels));
 }
 
 }  // namespace
 
-FreedMask without_grazes(const Image& mask) {
+FreedMask without_grazes(const Image& mask, FreedSides sides) {
     std::array<Grazes, 6> grazes;
+    WidenedSides widened{};
     FreedMask freed{.mask = mask};
-    for (int side = 0; side < 6; ++side) {
-        grazes[static_cast<std::size_t>(side)] = grazes_of(mask, side);
-        freed.grazes += grazes[static_cast<std::size_t>(side)].count;
+    for (std::size_t side = 0; side < 6; ++side) {
+        grazes[side] = grazes_of(mask, static_cast<int>(side));
+        freed.grazes += grazes[side].count;
+        widened[side] = sides == FreedSides::All || grazes[side].count > 0 ? 1 : 0;
     }
-    if (freed.grazes > 0) freed.mask = with_border(mask, grazes);
+    if (freed.grazes > 0) freed.mask = with_border(mask, grazes, widened);
     return freed;
 }
 

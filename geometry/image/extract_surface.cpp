@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "geometry/image/border_grazes.h"
 #include "geometry/image/clean_image.h"
 #include "geometry/image/curved_field.h"
 #include "geometry/image/drawn_wall.h"
@@ -147,13 +146,13 @@ struct Field {
 };
 
 /// The mask with what its lumen needs (MaskSurface::Lumen).
-/// \param fill missing voxels: nobody said how far to close the mask
-Image lumen_mask(const Image& mask, bool fill, Extraction& result, const Progress& progress) {
+Image lumen_mask(const Image& mask, const ExtractionParameters& parameters, Extraction& result,
+                 const Progress& progress) {
     KeptLumen& kept = result.lumen.emplace();
-    FreedMask freed = without_grazes(mask);
+    FreedMask freed = without_grazes(mask, parameters.freed_sides);
     kept.grazes = freed.grazes;
     Image whole = std::move(freed.mask);
-    if (fill) {
+    if (parameters.cleaning.closing == 0) {  // nobody said how far to close the mask
         const FilledMask filled = without_missing_voxels(whole);
         const auto before = std::ranges::count_if(*whole.voxels, is_inside);
         kept.closing = filled.closing;
@@ -234,8 +233,7 @@ Field label_field(const Image& labels, const ExtractionParameters& parameters, E
     if (parameters.mask_surface == MaskSurface::Smooth) {
         field = {smooth_field(field.image, parameters, result, progress), 0.0};
     } else if (parameters.mask_surface == MaskSurface::Lumen) {
-        const Image mask =
-            lumen_mask(field.image, parameters.cleaning.closing == 0, result, progress);
+        const Image mask = lumen_mask(field.image, parameters, result, progress);
         const Image smooth = smooth_field(mask, parameters, result, progress);
         field = {with_lumen_width(mask, smooth, result), 0.0};
     }
@@ -305,8 +303,7 @@ Field wall_field(ImageSource& source, const ExtractionParameters& parameters, Ex
     const bool lumen = parameters.mask_surface == MaskSurface::Lumen;
     result.mask_surface = lumen ? MaskSurface::Lumen : MaskSurface::Smooth;
     const Image whole =
-        lumen ? lumen_mask(mask, parameters.cleaning.closing == 0, result, progress.part(0.2, 0.3))
-              : mask;
+        lumen ? lumen_mask(mask, parameters, result, progress.part(0.2, 0.3)) : mask;
     const Image smooth = smooth_field(whole, parameters, result, progress.part(0.3, 0.7));
     DrawnWall wall = drawn_wall(made.ready, whole, smooth, progress.part(0.7, 1.0));
     if (lumen) wall.field = with_lumen_width(whole, wall.field, result);

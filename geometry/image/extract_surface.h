@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "geometry/image/border_grazes.h"
 #include "geometry/image/image.h"
 #include "geometry/image/level_field.h"
 #include "geometry/image/threshold.h"
@@ -74,6 +75,7 @@ struct ExtractionParameters {
     /// Of labels, and of a drawn wall, which is never midway; other methods ignore it.
     MaskSurface mask_surface = MaskSurface::Midway;
     BetweenSlices between_slices = BetweenSlices::Straight;  ///< of a smooth surface of a mask
+    FreedSides freed_sides = FreedSides::All;                ///< of MaskSurface::Lumen
     int dilation = 1;  ///< radius of the mask's dilation [voxels] (3 x 3 x 3 kernel)
     Cleaning cleaning;
     std::optional<double> resample;  ///< edge of cubic voxels [mm]

@@ -47,9 +47,11 @@ Solid arch(double over) {
     };
 }
 
-Extraction lumen_of(const Image& mask) {
-    return extract_surface(
-        mask, {}, {.method = ExtractionMethod::Labels, .mask_surface = MaskSurface::Lumen});
+Extraction lumen_of(const Image& mask, FreedSides sides = FreedSides::All) {
+    return extract_surface(mask, {},
+                           {.method = ExtractionMethod::Labels,
+                            .mask_surface = MaskSurface::Lumen,
+                            .freed_sides = sides});
 }
 
 }  // namespace
@@ -58,7 +60,7 @@ SCENARIO("A vessel that crosses an image's border is no graze", "[images][mask-s
     const double tilt = GENERATE(0.0, 20.0, 40.0);
     GIVEN("a tube, " << tilt << " degrees from a side's normal") {
         const Image mask = tilted_tube(tilt);
-        const FreedMask freed = without_grazes(mask);
+        const FreedMask freed = without_grazes(mask, FreedSides::All);
         CHECK(freed.grazes == 0);
         CHECK(freed.mask.voxels == mask.voxels);
     }
@@ -71,14 +73,14 @@ SCENARIO("A vessel whose outermost layer is ragged is no graze", "[images][mask-
         if (v % 41 != 12) voxels[v] = 0.0f;
     Image ragged = whole;
     ragged.voxels = std::make_shared<const std::vector<float>>(std::move(voxels));
-    CHECK(without_grazes(ragged).grazes == 0);
+    CHECK(without_grazes(ragged, FreedSides::All).grazes == 0);
 }
 
 SCENARIO("A wall that touches the border is no end", "[images][mask-surface]") {
     GIVEN("a ball in its own box") {
         const Image tight = mask_of(
             {17, 17, 17}, [](const Vec3& at) { return (at - Vec3::Constant(8.0)).norm() < 8.5; });
-        const FreedMask freed = without_grazes(tight);
+        const FreedMask freed = without_grazes(tight, FreedSides::All);
         CHECK(freed.grazes == 6);
         CHECK(freed.mask.size == std::array<int, 3>{19, 19, 19});
         for (const Vec3& at : {Vec3(0, 0, 0), Vec3(8, 8, 8), Vec3(16, 3, 5)})
@@ -101,4 +103,18 @@ SCENARIO("A wall that touches the border is no end", "[images][mask-surface]") {
             if (patch.kind == PatchKind::Cut)
                 CHECK(patch.area == Approx(std::numbers::pi * 6.2 * 6.2 * 0.25).epsilon(0.1));
     }
+}
+
+SCENARIO("Cropping a mask to its own box leaves its cut ends where they are",
+         "[images][mask-surface]") {
+    const Image tight = mask_of({53, 13, 27}, arch(0.0));
+    const Image roomy =
+        mask_of({63, 23, 32}, [](const Vec3& at) { return arch(0.0)(at - Vec3(5.0, 5.0, 0.0)); });
+    const FreedMask freed = without_grazes(tight, FreedSides::Touched);
+    CHECK(freed.grazes == 5);
+    CHECK(freed.mask.size == std::array<int, 3>{55, 15, 28});
+    CHECK((freed.mask.to_patient(Vec3(1, 1, 0)) - tight.to_patient(Vec3::Zero())).norm() < 1e-9);
+    const double whole = volume(lumen_of(roomy).surface);
+    CHECK(volume(lumen_of(tight, FreedSides::Touched).surface) == Approx(whole).epsilon(2e-3));
+    CHECK(volume(lumen_of(tight).surface) > 1.02 * whole);  // a voxel longer at both ends
 }

@@ -199,6 +199,15 @@ SCENARIO("Segmentations of 3D Slicer become the vessel that is chosen",
             CHECK(volume_ml(words[1]) == Approx(26.3).epsilon(0.01));
         }
     }
+    GIVEN("the artery on a part of the grid, a side of which its wall touches, for a print") {
+        const std::string out = temporary_folder() + "/out";
+        REQUIRE(run({"prepare", folder + "/cropped.seg.nrrd", "--label", "artery", "--for", "rp",
+                     "--out", out})
+                    .exit_code == 0);
+        const Json report = step_report(out, "extract-surface");
+        CHECK(report.at("lumen").at("grazes") == 1);
+        CHECK(report.at("volume_mm3") == Approx(26400.0).epsilon(0.005));
+    }
     GIVEN("segments that overlap, and no choice") {
         const ProgramRun asked = run({"prepare", folder + "/overlap.seg.nrrd", "--for", "rp",
                                       "--out", temporary_folder() + "/out"});

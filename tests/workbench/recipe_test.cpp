@@ -208,8 +208,10 @@ SCENARIO("The built-in recipe fits every use", "[workbench][recipe]") {
                 // A print gets no tubes unless asked.
                 CHECK(std::ranges::count(names, "extrude-opening") == (purpose == "cfd" ? 1 : 0));
                 for (const RecipeEntry& entry : default_recipe(use))
-                    if (entry.given.operation().name == "remesh")
+                    if (entry.given.operation().name == "remesh") {
                         CHECK(entry.given->has("print_resolution") == (purpose == "rp"));
+                        CHECK(entry.given->is_word("radius", "rays") == (purpose == "rp"));
+                    }
                 CHECK(std::ranges::count(names, "extract-surface") == (input == "image" ? 1 : 0));
                 CHECK(names.back() == (purpose == "cfd" ? "tetrahedralize" : "print-check"));
             }

@@ -459,6 +459,15 @@ std::vector<Parameter> label_parameters() {
                  "curved as within slices",
          .choices = {"straight", "curved"},
          .only_with = Condition{"method", {"auto", "labels", "wall"}}},
+        {.name = "freed_sides",
+         .type = Choice,
+         .default_value = "all",
+         .help = "where a wall touches the image's border, the lumen's mask goes on for a voxel "
+                 "behind all sides, and ends that other sides cut become longer by it, or behind "
+                 "the touched sides alone",
+         .choices = {"all", "touched"},
+         .only_with = Condition{"method", {"auto", "labels", "wall"}},
+         .use = Use::Rare},
         {.name = "dilation",
          .type = Integer,
          .unit = "voxels",

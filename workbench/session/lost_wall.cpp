@@ -11,6 +11,7 @@
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/surface_distance.h"
 #include "geometry/kernel/touching_ball.h"
+#include "geometry/kernel/wall_edges.h"
 #include "workbench/session/changed_wall.h"
 
 namespace vesselbench {
@@ -87,9 +88,12 @@ std::vector<LostVertex> lost_vertices(const StatedChange& stated, const Surface&
     return lost_from(distance_to(after), before, changed, stated.wall_lost);
 }
 
+/// Caps are no wall: the tip of an end that is closed by one lies on it.
 double distance_to_wall(const Surface& surface, const Vec3& place) {
+    const std::vector<std::uint8_t> wall = vertices_of_wall(surface);
     double least = std::numeric_limits<double>::infinity();
-    for (const Vec3& p : surface.points()) least = std::min(least, (p - place).squaredNorm());
+    for (VertexId v = 0; v < surface.vertex_count(); ++v)
+        if (wall[v] != 0) least = std::min(least, (surface.points()[v] - place).squaredNorm());
     return std::sqrt(least);
 }
 

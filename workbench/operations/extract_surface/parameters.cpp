@@ -64,6 +64,7 @@ ExtractionParameters extraction_parameters(const Arguments& arguments, bool with
     parameters.mask_surface = mask_surface_from(arguments.text("mask_surface"));
     if (arguments.text("between_slices") == "curved")
         parameters.between_slices = BetweenSlices::Curved;
+    if (arguments.text("freed_sides") == "touched") parameters.freed_sides = FreedSides::Touched;
     parameters.dilation = static_cast<int>(arguments.integer("dilation"));
     parameters.cleaning = cleaning_from(arguments);
     parameters.resample = arguments.optional_real("resample");
