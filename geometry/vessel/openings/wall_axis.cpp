@@ -100,9 +100,9 @@ std::vector<Vec3> wall_near(const Surface& surface, const Plane& plane, double d
 }
 
 /// A tube around a line, fitted to points.
-class Tube {
+class FittedWall {
 public:
-    Tube(const std::vector<Vec3>& points, const Vec3& inward, const Stretch& stretch)
+    FittedWall(const std::vector<Vec3>& points, const Vec3& inward, const Stretch& stretch)
         : points_(points), stretch_(stretch) {
         line_.setZero();
         line_.row(1) = inward.transpose();
@@ -253,7 +253,7 @@ private:
 
 std::optional<WallAxis> axis_of_stretch(const std::vector<Vec3>& points, const Vec3& inward,
                                         const Stretch& stretch, double at) {
-    Tube tube(points, inward, stretch);
+    FittedWall tube(points, inward, stretch);
     if (!tube.fit()) return std::nullopt;
     const double turned = std::max(std::min(at + 1.0, stretch.to), at + 0.1);
     return WallAxis{
