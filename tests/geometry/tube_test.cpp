@@ -5,6 +5,8 @@
 
 #include <catch2/catch.hpp>
 
+#include "geometry/vessel/tree/tube_fit.h"
+
 using namespace vesselbench;
 
 namespace {
@@ -21,6 +23,36 @@ Tube bend(double radius, double end_radius, int steps = 400) {
         radii.push_back((1.0 - t) * radius + t * end_radius);
     }
     return {std::move(points), std::move(radii), Vec3::UnitY()};
+}
+
+using Fit = TubeFit<3, 2>;
+
+/// Of a tapering, flattened wall around a bent line off the axis; scattered by about `noise`, and
+/// one in so many points farther off by `outlier`.
+std::vector<TubeSample> scattered_wall(double noise, std::size_t one_in, double outlier) {
+    std::vector<TubeSample> wall;
+    for (std::size_t i = 0; i < 600; ++i) {
+        const double n = static_cast<double>(i), z = 2.0 * std::fmod(0.7548777 * n, 1.0) - 1.0;
+        const double angle = 2.0 * std::numbers::pi * std::fmod(0.5698403 * n, 1.0);
+        const Eigen::Vector2d out(std::cos(angle), std::sin(angle));
+        const double odd = i % one_in == 0 ? outlier : 0.0;
+        const double distance = 1.0 - 0.1 * z + 0.08 * std::cos(2.0 * angle) +
+                                out.dot(Eigen::Vector2d(0.05 + 0.2 * z * z, -0.03 * z)) +
+                                noise * std::sqrt(2.0) * std::sin(127.1 * n) + odd;
+        wall.push_back({.along = z, .angle = angle, .distance = distance, .out = out});
+    }
+    return wall;
+}
+
+Fit fitted(const std::vector<TubeSample>& wall, const TubeWeights& how = {}) {
+    return {wall, 0.1, how, Fit::Normal::Zero(), Fit::Unknowns::Zero()};
+}
+
+/// Largest difference of the fit from what scattered_wall is made of.
+double largest_error(const Fit& fit) {
+    Fit::Unknowns truth;
+    truth << 0.05, 0.0, 0.2, 0.0, -0.03, 0.0, 1.0, -0.1, 0.0, 0.08, 0.0;
+    return (fit.unknowns - truth).cwiseAbs().maxCoeff();
 }
 
 }  // namespace
@@ -82,4 +114,26 @@ SCENARIO("Only the segments that are asked for are searched", "[geometry][tube]"
     CHECK(hairpin.nearest(x).segment == 2);
     CHECK(hairpin.nearest(x, 0, 1).segment == 0);
     CHECK(hairpin.along(hairpin.nearest(x, 0, 1)) == Approx(1.0));
+}
+
+SCENARIO("A tube is fitted to a scattered wall", "[geometry][tube]") {
+    const Fit clean = fitted(scattered_wall(0.0, 1000, 0.0), {.least = 1e-9});
+    CHECK(largest_error(clean) < 1e-8);
+    const Fit noisy = fitted(scattered_wall(0.01, 1000, 0.0), {.least = 1e-4});
+    CHECK(largest_error(noisy) < 0.004);
+    CHECK(noisy.scatter == Approx(0.01).epsilon(0.15));
+    THEN("its doubt is that of so many points") {
+        const double doubt = std::sqrt(noisy.spread(Fit::kRadiusAt, Fit::kRadiusAt));
+        CHECK(doubt > 0.01 / std::sqrt(600.0));
+        CHECK(doubt < 0.03 / std::sqrt(600.0));
+    }
+}
+
+SCENARIO("A bump does not draw the tube towards it", "[geometry][tube]") {
+    const auto wall = scattered_wall(0.01, 8, 0.4);
+    const Fit robust = fitted(wall, {.least = 1e-4});
+    CHECK(largest_error(robust) < 0.005);
+    CHECK(robust.rest[8] == Approx(0.4).margin(0.03));
+    CHECK(robust.deviation < 0.025);
+    CHECK(largest_error(fitted(wall, {.rounds = 1})) > 0.04);
 }
