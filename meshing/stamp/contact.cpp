@@ -37,24 +37,15 @@ std::vector<Vec3> half_sphere() {
     return directions;
 }
 
-/// A surface near a place, for sections.
-class Sections {
-public:
-    explicit Sections(Surface part) : part_(std::move(part)) {}
-
-    /// The smallest closed section around the plane's point.
-    [[nodiscard]] std::optional<SectionCurve> around(const Plane& plane) const {
-        std::optional<SectionCurve> smallest;
-        for (const SectionCurve& curve : cross_sections(part_, plane))
-            if (curve.closed && curve.area > 0.0 && encloses(curve, plane, plane.point) &&
-                (!smallest || curve.area < smallest->area))
-                smallest = curve;
-        return smallest;
-    }
-
-private:
-    Surface part_;
-};
+/// The smallest closed section around the plane's point.
+std::optional<SectionCurve> section_around(const Surface& part, const Plane& plane) {
+    std::optional<SectionCurve> smallest;
+    for (const SectionCurve& curve : cross_sections(part, plane))
+        if (curve.closed && curve.area > 0.0 && encloses(curve, plane, plane.point) &&
+            (!smallest || curve.area < smallest->area))
+            smallest = curve;
+    return smallest;
+}
 
 struct Waist {
     Plane plane;
@@ -62,7 +53,7 @@ struct Waist {
 };
 
 /// Turned and slid by steps that get shorter, as long as the section gets smaller.
-void improve(const Sections& sections, Waist& waist) {
+void improve(const Surface& part, Waist& waist) {
     const double first = std::numbers::pi / 12.0;
     for (double turn = first; turn > kFinestTurn; turn *= 0.5) {
         bool better = true;
@@ -78,7 +69,7 @@ void improve(const Sections& sections, Waist& waist) {
                                                   {normal, slide},
                                                   {normal, -slide}}) {
                 const Plane plane{centre + step * normal, direction.normalized()};
-                auto curve = sections.around(plane);
+                auto curve = section_around(part, plane);
                 if (!curve || curve->area >= 0.999 * waist.curve.area) continue;
                 waist = {plane, std::move(*curve)};
                 better = true;
@@ -88,12 +79,12 @@ void improve(const Sections& sections, Waist& waist) {
 }
 
 /// Both sides of a waist are wider lumen; a section that is open there belongs to something wide.
-bool is_waist(const Sections& sections, const SurfaceDistance& places, const Waist& waist) {
+bool is_waist(const Surface& part, const SurfaceDistance& places, const Waist& waist) {
     const auto is_wide = [&](double aside) {
         const Plane plane{
             waist.curve.centroid + aside * std::sqrt(waist.curve.area) * waist.plane.normal,
             waist.plane.normal};
-        const auto curve = sections.around(plane);
+        const auto curve = section_around(part, plane);
         return curve ? curve->area > kWider * waist.curve.area : places.inside(plane.point);
     };
     return std::ranges::all_of(std::array{-1.0, 1.0}, [&](double side) {
@@ -150,16 +141,16 @@ std::optional<Contact> contact_at(const Surface& surface, const SurfaceDistance&
     const double farthest = kFarthest * (opposite->point - at.point).norm();
     std::vector<std::uint8_t> marked(surface.triangle_count(), 0);
     for (const TriangleId t : places.triangles_within(middle, farthest)) marked[t] = 1;
-    const Sections sections(part_of(surface, marked).surface);
+    const Surface part = part_of(surface, marked).surface;
     std::optional<Waist> waist;
     for (const Vec3& normal : half_sphere()) {
-        auto curve = sections.around({middle, normal});
+        auto curve = section_around(part, {middle, normal});
         if (curve && (!waist || curve->area < waist->curve.area))
             waist = Waist{{middle, normal}, std::move(*curve)};
     }
     if (!waist) return std::nullopt;
-    improve(sections, *waist);
-    if (!is_waist(sections, places, *waist)) return std::nullopt;
+    improve(part, *waist);
+    if (!is_waist(part, places, *waist)) return std::nullopt;
     return contact_of(*waist);
 }
 

@@ -34,11 +34,11 @@ std::vector<std::uint8_t> bridge_vertices(const ContactZone& zone, const TwinTub
         if (is_mixed(t, own))
             for (const VertexId v : t) choose(v);
     const auto stands_off = [&](VertexId v) {
-        const FittedTube& tube = twins.tubes[own[v]];
-        const TubePlace at = tube.place(part.points()[v]);
-        const double radius = tube.radii[at.segment];
+        const Tube& tube = twins.tubes[own[v]];
+        const auto [at, height] = tube.nearest_wall(part.points()[v]);
+        const double radius = tube.radii()[at.segment];
         const double limit = std::clamp(kScatter * twins.noise, kLeast * radius, kMost * radius);
-        return std::abs(at.height) > limit;
+        return std::abs(height) > limit;
     };
     for (std::size_t i = 0; i < found.size(); ++i)
         for (const VertexId v : part.topology->rings().row(found[i]))
@@ -152,12 +152,13 @@ void measure(const ContactZone& zone, const TwinTubes& twins, ContactBridge& bri
     std::array<Vec3, 2> along;
     std::array<Vec3, 2> middle;
     for (std::size_t k = 0; k < 2; ++k) {
-        const FittedTube& tube = twins.tubes[k];
-        const TubePlace at = tube.place(bridge.centre);
-        const Vec3 step = tube.centres[at.segment + 1] - tube.centres[at.segment];
+        const Tube& tube = twins.tubes[k];
+        const AxisPlace at = tube.nearest_wall(bridge.centre).first;
+        const Vec3& from = tube.points()[at.segment];
+        const Vec3 step = tube.points()[at.segment + 1] - from;
         along[k] = step.normalized();
-        middle[k] = tube.centres[at.segment] + at.t * step;
-        bridge.radii[k] = (1.0 - at.t) * tube.radii[at.segment] + at.t * tube.radii[at.segment + 1];
+        middle[k] = from + at.t * step;
+        bridge.radii[k] = tube.radius(at);
     }
     if (along[0].dot(along[1]) < 0.0) along[1] = -along[1];
     const Vec3 axis = (along[0] + along[1]).normalized();

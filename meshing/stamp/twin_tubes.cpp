@@ -10,6 +10,7 @@
 
 #include "geometry/kernel/measure.h"
 #include "geometry/kernel/robust.h"
+#include "geometry/kernel/statistics.h"
 #include "geometry/kernel/surface_distance.h"
 
 namespace vesselbench {
@@ -50,21 +51,22 @@ std::vector<WallPoint> wall_points(const Surface& part) {
 }
 
 /// The cubic between two arms. Source: Hermite interpolation, tangents as long as the chord.
-FittedTube first_guess(const ContactArm& from, const ContactArm& to) {
+Tube first_guess(const ContactArm& from, const ContactArm& to) {
     const double span = (to.centre - from.centre).norm();
-    const double mean = 0.5 * (from.radius + to.radius);
+    const double usual = 0.5 * (from.radius + to.radius);
     const auto count =
-        std::clamp(static_cast<std::size_t>(span / (kStation * mean)) + 2, kFewest, kMost);
-    FittedTube tube;
+        std::clamp(static_cast<std::size_t>(span / (kStation * usual)) + 2, kFewest, kMost);
+    Positions points;
+    std::vector<double> radii;
     for (std::size_t i = 0; i < count; ++i) {
         const double t = static_cast<double>(i) / static_cast<double>(count - 1);
         const double t2 = t * t, t3 = t2 * t;
-        tube.centres.push_back((2 * t3 - 3 * t2 + 1) * from.centre -
-                               (t3 - 2 * t2 + t) * span * from.outward +
-                               (3 * t2 - 2 * t3) * to.centre + (t3 - t2) * span * to.outward);
-        tube.radii.push_back((1.0 - t) * from.radius + t * to.radius);
+        points.push_back((2 * t3 - 3 * t2 + 1) * from.centre -
+                         (t3 - 2 * t2 + t) * span * from.outward + (3 * t2 - 2 * t3) * to.centre +
+                         (t3 - t2) * span * to.outward);
+        radii.push_back((1.0 - t) * from.radius + t * to.radius);
     }
-    return tube;
+    return {std::move(points), std::move(radii)};
 }
 
 double smooth_step(double low, double high, double x) {
@@ -75,38 +77,37 @@ double smooth_step(double low, double high, double x) {
 /// The normal equations of one tube: unknowns are x, y, z and radius of each centre.
 class TubeEquations {
 public:
-    explicit TubeEquations(const FittedTube& tube)
+    explicit TubeEquations(const Tube& tube)
         : tube_(tube),
           matrix_(Eigen::MatrixXd::Zero(size(), size())),
           right_(Eigen::VectorXd::Zero(size())) {}
 
     /// The wall at a point shall be on the tube.
-    void add_wall(const Vec3& point, const TubePlace& at, double weight) {
-        const Vec3 &a = tube_.centres[at.segment], &b = tube_.centres[at.segment + 1];
-        const Vec3 out = point - ((1.0 - at.t) * a + at.t * b);
+    void add_wall(const Vec3& point, const AxisPlace& at, double height, double weight) {
+        const Vec3 out = point - tube_.centre(at);
         const double length = out.norm();
         if (!(length > 0.0) || weight == 0.0) return;
         Eigen::Matrix<double, 8, 1> row;
         row << -(1.0 - at.t) * out / length, -(1.0 - at.t), -at.t * out / length, -at.t;
         const auto first = static_cast<Eigen::Index>(4 * at.segment);
         matrix_.block<8, 8>(first, first) += weight * row * row.transpose();
-        right_.segment<8>(first) -= weight * at.height * row;
+        right_.segment<8>(first) -= weight * height * row;
     }
 
     void add_anchor(std::size_t centre, const ContactArm& arm) {
         const auto first = static_cast<Eigen::Index>(4 * centre);
         for (Eigen::Index k = 0; k < 4; ++k) matrix_(first + k, first + k) += kAnchor;
-        right_.segment<3>(first) += kAnchor * (arm.centre - tube_.centres[centre]);
-        right_[first + 3] += kAnchor * (arm.radius - tube_.radii[centre]);
+        right_.segment<3>(first) += kAnchor * (arm.centre - tube_.points()[centre]);
+        right_[first + 3] += kAnchor * (arm.radius - tube_.radii()[centre]);
     }
 
     void add_stiffness() {
-        for (std::size_t i = 1; i + 1 < tube_.centres.size(); ++i)
+        for (std::size_t i = 1; i + 1 < tube_.points().size(); ++i)
             for (Eigen::Index k = 0; k < 4; ++k) {
                 const double weight = k < 3 ? kBending : kTapering;
                 const auto at = [&](std::size_t j) { return static_cast<Eigen::Index>(4 * j) + k; };
                 const auto value = [&](std::size_t j) {
-                    return k < 3 ? tube_.centres[j][k] : tube_.radii[j];
+                    return k < 3 ? tube_.points()[j][k] : tube_.radii()[j];
                 };
                 const std::array<double, 3> stencil = {1.0, -2.0, 1.0};
                 const double bend = value(i - 1) - 2.0 * value(i) + value(i + 1);
@@ -118,36 +119,30 @@ public:
             }
     }
 
-    [[nodiscard]] FittedTube solved() const {
+    [[nodiscard]] Tube solved() const {
         const Eigen::VectorXd step = matrix_.ldlt().solve(right_);
-        FittedTube moved = tube_;
-        for (std::size_t i = 0; i < moved.centres.size(); ++i) {
+        Positions points = tube_.points();
+        std::vector<double> radii = tube_.radii();
+        for (std::size_t i = 0; i < points.size(); ++i) {
             const auto first = static_cast<Eigen::Index>(4 * i);
-            const double most = 0.5 * moved.radii[i];
+            const double radius = radii[i], most = 0.5 * radius;
             Vec3 shift = step.segment<3>(first);
             if (shift.norm() > most) shift *= most / shift.norm();
-            moved.centres[i] += shift;
-            moved.radii[i] = std::clamp(moved.radii[i] + step[first + 3], 0.5 * moved.radii[i],
-                                        1.5 * moved.radii[i]);
+            points[i] += shift;
+            radii[i] = std::clamp(radius + step[first + 3], 0.5 * radius, 1.5 * radius);
         }
-        return moved;
+        return {std::move(points), std::move(radii)};
     }
 
 private:
     [[nodiscard]] Eigen::Index size() const {
-        return static_cast<Eigen::Index>(4 * tube_.centres.size());
+        return static_cast<Eigen::Index>(4 * tube_.points().size());
     }
 
-    const FittedTube& tube_;
+    const Tube& tube_;
     Eigen::MatrixXd matrix_;
     Eigen::VectorXd right_;
 };
-
-double mean_radius(const FittedTube& tube) {
-    double sum = 0.0;
-    for (const double radius : tube.radii) sum += radius;
-    return sum / static_cast<double>(tube.radii.size());
-}
 
 /// \return the same twins, fitted once to the wall within `reach` of them [radii]
 TwinTubes refitted(const TwinTubes& twins, const ContactZone& zone,
@@ -155,21 +150,23 @@ TwinTubes refitted(const TwinTubes& twins, const ContactZone& zone,
     TwinTubes better = twins;
     std::array<TubeEquations, 2> equations = {TubeEquations(twins.tubes[0]),
                                               TubeEquations(twins.tubes[1])};
-    const std::array<double, 2> radius = {mean_radius(twins.tubes[0]), mean_radius(twins.tubes[1])};
+    const std::array<double, 2> radius = {mean(twins.tubes[0].radii()),
+                                          mean(twins.tubes[1].radii())};
     const double thinner = std::min(radius[0], radius[1]);
     for (const WallPoint& each : wall) {
-        const std::array places = {twins.tubes[0].place(each.point),
-                                   twins.tubes[1].place(each.point)};
-        const std::size_t own = std::abs(places[0].height) <= std::abs(places[1].height) ? 0 : 1;
-        const double free = smooth_step(kNear * thinner, kFree * thinner, places[1 - own].height);
+        const std::array places = {twins.tubes[0].nearest_wall(each.point),
+                                   twins.tubes[1].nearest_wall(each.point)};
+        const std::size_t own = std::abs(places[0].second) <= std::abs(places[1].second) ? 0 : 1;
+        const auto& [place, height] = places[own];
+        const double free = smooth_step(kNear * thinner, kFree * thinner, places[1 - own].second);
         const double length = kStation * radius[own];
         const double share = each.area / (2.0 * std::numbers::pi * radius[own] * length);
-        equations[own].add_wall(each.point, places[own],
-                                share * free * biweight(places[own].height, reach * radius[own]));
+        equations[own].add_wall(each.point, place, height,
+                                share * free * biweight(height, reach * radius[own]));
     }
     for (std::size_t k = 0; k < 2; ++k) {
         equations[k].add_anchor(0, zone.arms[twins.arms[k][0]]);
-        equations[k].add_anchor(twins.tubes[k].centres.size() - 1, zone.arms[twins.arms[k][1]]);
+        equations[k].add_anchor(twins.tubes[k].points().size() - 1, zone.arms[twins.arms[k][1]]);
         equations[k].add_stiffness();
         better.tubes[k] = equations[k].solved();
     }
@@ -177,16 +174,16 @@ TwinTubes refitted(const TwinTubes& twins, const ContactZone& zone,
 }
 
 /// Area of a tube that is not near the wall, and all of it [mm^2].
-std::pair<double, double> bare_area(const FittedTube& tube, const SurfaceDistance& wall) {
+std::pair<double, double> bare_area(const Tube& tube, const SurfaceDistance& wall) {
     double bare = 0.0, all = 0.0;
-    for (std::size_t i = 0; i + 1 < tube.centres.size(); ++i) {
-        const Vec3 step = tube.centres[i + 1] - tube.centres[i];
-        const double radius = 0.5 * (tube.radii[i] + tube.radii[i + 1]);
+    for (std::size_t i = 0; i + 1 < tube.points().size(); ++i) {
+        const Vec3 step = tube.points()[i + 1] - tube.points()[i];
+        const double radius = 0.5 * (tube.radii()[i] + tube.radii()[i + 1]);
         const double area = 2.0 * std::numbers::pi * radius * step.norm() / kAround;
         const Vec3 x = step.unitOrthogonal(), y = step.normalized().cross(x);
         for (int k = 0; k < kAround; ++k) {
             const double angle = 2.0 * std::numbers::pi * k / kAround;
-            const Vec3 at = 0.5 * (tube.centres[i] + tube.centres[i + 1]) +
+            const Vec3 at = 0.5 * (tube.points()[i] + tube.points()[i + 1]) +
                             radius * (std::cos(angle) * x + std::sin(angle) * y);
             all += area;
             if (!wall.closest_point(at, kExplained * radius)) bare += area;
@@ -198,7 +195,8 @@ std::pair<double, double> bare_area(const FittedTube& tube, const SurfaceDistanc
 void judge(TwinTubes& twins, const ContactZone& zone, const std::vector<WallPoint>& wall) {
     double odd = 0.0, all = 0.0;
     std::vector<double> deviations;
-    const std::array<double, 2> radius = {mean_radius(twins.tubes[0]), mean_radius(twins.tubes[1])};
+    const std::array<double, 2> radius = {mean(twins.tubes[0].radii()),
+                                          mean(twins.tubes[1].radii())};
     for (const WallPoint& each : wall) {
         const std::array<double, 2> heights = {twins.tubes[0].height(each.point),
                                                twins.tubes[1].height(each.point)};
@@ -209,7 +207,7 @@ void judge(TwinTubes& twins, const ContactZone& zone, const std::vector<WallPoin
             deviations.push_back(heights[own]);
     }
     const SurfaceDistance distance(zone.part.surface);
-    for (const FittedTube& tube : twins.tubes) {
+    for (const Tube& tube : twins.tubes) {
         const auto [bare, whole] = bare_area(tube, distance);
         odd += bare;
         all += whole;
@@ -217,27 +215,14 @@ void judge(TwinTubes& twins, const ContactZone& zone, const std::vector<WallPoin
     twins.misfit = odd / all;
     twins.noise = scatter_of(std::move(deviations));
     twins.overlap = 0.0;
-    for (std::size_t i = 0; i < twins.tubes[0].centres.size(); ++i) {
-        const double apart = twins.tubes[1].height(twins.tubes[0].centres[i]);
+    for (std::size_t i = 0; i < twins.tubes[0].points().size(); ++i) {
+        const double apart = twins.tubes[1].height(twins.tubes[0].points()[i]);
         twins.overlap = std::max(
-            twins.overlap, (twins.tubes[0].radii[i] - apart) / std::min(radius[0], radius[1]));
+            twins.overlap, (twins.tubes[0].radii()[i] - apart) / std::min(radius[0], radius[1]));
     }
 }
 
 }  // namespace
-
-TubePlace FittedTube::place(const Vec3& x) const {
-    TubePlace best{.height = std::numeric_limits<double>::infinity()};
-    for (std::size_t i = 0; i + 1 < centres.size(); ++i) {
-        const Vec3 step = centres[i + 1] - centres[i];
-        const double t =
-            std::clamp((x - centres[i]).dot(step) / std::max(step.squaredNorm(), 1e-300), 0.0, 1.0);
-        const double height =
-            (x - centres[i] - t * step).norm() - ((1.0 - t) * radii[i] + t * radii[i + 1]);
-        if (height < best.height) best = {i, t, height};
-    }
-    return best;
-}
 
 TwinTubes twin_tubes(const ContactZone& zone, std::size_t partner) {
     const std::vector<WallPoint> wall = wall_points(zone.part.surface);

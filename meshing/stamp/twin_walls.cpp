@@ -12,7 +12,7 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/surface_gap.h"
 #include "geometry/kernel/wording.h"
-#include "geometry/vessel/openings/vessel_tube.h"
+#include "geometry/vessel/tree/tube.h"
 #include "meshing/stamp/refusal.h"
 
 namespace vesselbench {
@@ -29,9 +29,9 @@ constexpr double kOvershoot = 1.1;  ///< of what lacks to the gap, added for the
 
 /// Through the tube's centres as a smooth curve. Source: Catmull and Rom, "A class of local
 /// interpolating splines", 1974.
-VesselTube chart_tube(const FittedTube& tube) {
-    const auto count = static_cast<int>(tube.centres.size());
-    const auto centre = [&](int i) { return tube.centres[std::clamp(i, 0, count - 1)]; };
+Tube chart_tube(const Tube& tube) {
+    const auto count = static_cast<int>(tube.points().size());
+    const auto centre = [&](int i) { return tube.points()[std::clamp(i, 0, count - 1)]; };
     Positions line;
     std::vector<double> radii;
     for (int i = 0; i + 1 < count; ++i)
@@ -41,15 +41,15 @@ VesselTube chart_tube(const FittedTube& tube) {
             line.push_back(0.5 *
                            (2.0 * b + t * (c - a) + t * t * (2.0 * a - 5.0 * b + 4.0 * c - d) +
                             t * t * t * (3.0 * b - a - 3.0 * c + d)));
-            radii.push_back((1.0 - t) * tube.radii[i] + t * tube.radii[i + 1]);
+            radii.push_back((1.0 - t) * tube.radii()[i] + t * tube.radii()[i + 1]);
         }
-    line.push_back(tube.centres.back());
-    radii.push_back(tube.radii.back());
+    line.push_back(tube.points().back());
+    radii.push_back(tube.radii().back());
     const Vec3 first = (line[1] - line[0]).unitOrthogonal();
     return {std::move(line), std::move(radii), first};
 }
 
-HoleChart chart_on(const VesselTube& tube, double radius) {
+HoleChart chart_on(const Tube& tube, double radius) {
     return {[&tube, radius](const Vec3& x) {
                 const TubeCoordinates at = tube.coordinates(x);
                 return Vec3(at.height, radius * at.angle, at.along);
@@ -75,7 +75,7 @@ Closed closed_holes(const ContactZone& zone, const TwinTubes& twins, const Conta
         if (at_arm[rim.front()]) continue;
         const std::uint8_t side = bridge.own[rim.front()];
         const Vec3 middle = loop_centre(edited.points_of(rim));
-        const VesselTube tube = chart_tube(twins.tubes[side]).turned_to(middle);
+        const Tube tube = chart_tube(twins.tubes[side]).turned_to(middle);
         const HoleChart chart = chart_on(tube, tube.radius(tube.coordinates(middle).along));
         fill_rim(edited, rim, kContinuity, &chart);
         own.resize(edited.vertex_count(), side);
@@ -144,7 +144,7 @@ private:
     }
 
     const TwinTubes& twins_;
-    std::array<VesselTube, 2> charts_;
+    std::array<Tube, 2> charts_;
 };
 
 SurfaceGap gap_between(const Surface& both, const std::vector<std::uint8_t>& own) {

@@ -6,8 +6,8 @@
 #include "geometry/kernel/errors.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
 #include "geometry/vessel/centerlines/centerlines.h"
-#include "geometry/vessel/centerlines/flight_path.h"
 #include "geometry/vessel/centerlines/vessel_diameter.h"
+#include "geometry/vessel/tree/flight_path.h"
 #include "tests/support/shapes.h"
 
 using namespace vesselbench;
@@ -15,7 +15,7 @@ using namespace vesselbench::test;
 
 namespace {
 
-struct Tube {
+struct StraightTube {
     Surface surface = fine_tube(4, 30, 36);
     std::shared_ptr<const CenterlineGraph> graph = centerlines_of(surface);
     std::vector<PatchMeasures> openings = [this] {
@@ -62,7 +62,7 @@ SCENARIO("The length of clicked points is that of the lines between them",
 }
 
 SCENARIO("A tube of 4 mm radius has a diameter of 8 mm", "[geometry][measuring]") {
-    const Tube tube;
+    const StraightTube tube;
     const auto found = vessel_diameter(tube.surface, *tube.graph, {0, -4, 15});
     REQUIRE(found);
     CHECK(found->inscribed == Approx(8).epsilon(0.02));
@@ -77,7 +77,7 @@ SCENARIO("A tube of 4 mm radius has a diameter of 8 mm", "[geometry][measuring]"
 }
 
 SCENARIO("A flight goes from the inlet to the outlet", "[geometry][measuring]") {
-    const Tube tube;
+    const StraightTube tube;
     const auto paths = flight_paths(*tube.graph, tube.openings);
     REQUIRE(paths.size() == 1);
     CHECK(paths[0].name == "outlet_1");
@@ -90,8 +90,8 @@ SCENARIO("A flight goes from the inlet to the outlet", "[geometry][measuring]") 
     CHECK(middle.radius == Approx(4).epsilon(0.03));
     THEN("it ends looking out of the vessel") {
         CHECK(place_on(paths[0], 1e3).view.z() > 0.9);
-        CHECK(place_on(paths[0], 1e3).eye == paths[0].points.back());
-        CHECK(place_on(paths[0], -1).eye == paths[0].points.front());
+        CHECK(place_on(paths[0], 1e3).eye == paths[0].tube.points().back());
+        CHECK(place_on(paths[0], -1).eye == paths[0].tube.points().front());
     }
 }
 
@@ -102,15 +102,14 @@ SCENARIO("Every end of a vessel tree can be flown to", "[geometry][measuring]") 
     REQUIRE(paths.size() == 2);
     for (const FlightPath& path : paths) {
         CHECK(path.length() == Approx(20));
-        CHECK(path.points.front() == Vec3(0, 0, 0));
-        CHECK(std::abs(path.points.back().x()) == Approx(6));
-        CHECK(path.ups.size() == path.points.size());
-        CHECK(place_on(path, 19).view.x() * path.points.back().x() > 0);
+        CHECK(path.tube.points().front() == Vec3(0, 0, 0));
+        CHECK(std::abs(path.tube.points().back().x()) == Approx(6));
+        CHECK(place_on(path, 19).view.x() * path.tube.points().back().x() > 0);
     }
-    CHECK(paths[0].points.back() != paths[1].points.back());
+    CHECK(paths[0].tube.points().back() != paths[1].tube.points().back());
     THEN("the camera does not roll") {
-        for (std::size_t i = 1; i < paths[0].ups.size(); ++i)
-            CHECK(paths[0].ups[i].dot(paths[0].ups[i - 1]) > 0.8);
+        for (double s = 0.25; s <= paths[0].length(); s += 0.25)
+            CHECK(place_on(paths[0], s).up.dot(place_on(paths[0], s - 0.25).up) > 0.8);
     }
     CHECK(flight_paths({}, {}).empty());
     CHECK_THROWS_AS(place_on(FlightPath{}, 0), InvalidInput);

@@ -7,15 +7,14 @@
 #include <numbers>
 #include <utility>
 
-#include <Eigen/Cholesky>
 #include <tbb/parallel_for.h>
 
 #include "geometry/kernel/disjoint_sets.h"
 #include "geometry/kernel/measure.h"
-#include "geometry/kernel/robust.h"
 #include "geometry/kernel/wall_edges.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
 #include "geometry/vessel/centerlines/line_radii.h"
+#include "geometry/vessel/tree/tube_fit.h"
 
 namespace vesselbench {
 
@@ -29,65 +28,24 @@ constexpr double kStep = 0.25;      ///< between the middles of two stretches
 constexpr double kFromEnds = 0.75;  ///< caps and rounded ends are no tube
 constexpr double kFarthest = 1.8;   ///< from the line: what is farther off is another body's wall
 
-/// Constant, offset and ellipse around the line; constant and offset up to the square of the length
-/// along it, since a vessel tapers and bends.
-constexpr int kTerms = 11;
-using Terms = Eigen::Matrix<double, kTerms, 1>;
+/// An ellipse around a line and a radius that bend as a vessel does.
+using Fit = TubeFit<3, 2>;
 
-constexpr std::size_t kFewest = 4 * kTerms;  ///< vertices of a stretch
-constexpr int kSectors = 8;                  ///< each has vertices, or the wall is not all around
-constexpr int kRounds = 5;
-/// kNormalScatter to three digits, with which the limits of findings were chosen.
-constexpr double kNormal = 1.483;
-constexpr double kFinest = 0.004;  ///< scatter below which no vertex is an outlier [radii]
+constexpr std::size_t kFewest = 4 * Fit::kUnknowns;  ///< vertices of a stretch
+constexpr int kSectors = 8;  ///< each has vertices, or the wall is not all around
+/// The deviation is kNormalScatter to three digits, with which the limits of findings were chosen;
+/// below `least` no vertex is an outlier [radii].
+constexpr TubeWeights kWeights = {.deviation = 1.483, .least = 0.004};
 
-/// A vertex in the coordinates of a stretch, in radii.
-struct Polar {
-    VertexId vertex = 0;
-    double along = 0.0, angle = 0.0, distance = 0.0;
+/// Vertices in the coordinates of a stretch, in radii.
+struct StretchWall {
+    std::vector<VertexId> vertices;
+    std::vector<TubeSample> samples;
 };
 
-Terms terms_of(const Polar& at) {
-    const double c = std::cos(at.angle), s = std::sin(at.angle), z = at.along;
-    Terms terms;
-    terms << 1.0, c, s, std::cos(2.0 * at.angle), std::sin(2.0 * at.angle), z, z * c, z * s, z * z,
-        z * z * c, z * z * s;
-    return terms;
-}
-
-struct Fit {
-    Terms shape = Terms::Zero();
-    double scatter = 0.0;  ///< robust standard deviation [radii]
-};
-
-/// \param points at least kFewest, all around
-Fit robust_fit(const std::vector<Polar>& points) {
-    std::vector<Terms> rows(points.size());
-    std::ranges::transform(points, rows.begin(), terms_of);
-    std::vector<double> weights(points.size(), 1.0), off(points.size());
-    Fit fit;
-    for (int round = 0; round < kRounds; ++round) {
-        Eigen::Matrix<double, kTerms, kTerms> normal =
-            1e-9 * Eigen::Matrix<double, kTerms, kTerms>::Identity();
-        Terms right = Terms::Zero();
-        for (std::size_t i = 0; i < rows.size(); ++i) {
-            if (weights[i] <= 0.0) continue;
-            normal.selfadjointView<Eigen::Lower>().rankUpdate(rows[i], weights[i]);
-            right += weights[i] * points[i].distance * rows[i];
-        }
-        fit.shape = normal.selfadjointView<Eigen::Lower>().ldlt().solve(right);
-        for (std::size_t i = 0; i < rows.size(); ++i)
-            off[i] = points[i].distance - rows[i].dot(fit.shape);
-        fit.scatter = std::max(kNormal * median_deviation(off), kFinest);
-        for (std::size_t i = 0; i < rows.size(); ++i)
-            weights[i] = biweight(off[i], kTukeyReach * fit.scatter);
-    }
-    return fit;
-}
-
-bool is_all_around(const std::vector<Polar>& points) {
+bool is_all_around(const std::vector<TubeSample>& points) {
     std::array<int, kSectors> counts{};
-    for (const Polar& at : points) {
+    for (const TubeSample& at : points) {
         const double turn = (at.angle + std::numbers::pi) / (2.0 * std::numbers::pi);
         ++counts[static_cast<std::size_t>(
             std::clamp(static_cast<int>(turn * kSectors), 0, kSectors - 1))];
@@ -146,35 +104,39 @@ private:
     /// \param own the places along the line whose vertices get their heights from this stretch
     void fit_at(double middle, double radius, std::pair<double, double> own) {
         const double half = kHalfStretch * radius;
-        const std::vector<Polar> points = polar_between(
+        const auto [vertices, samples] = wall_between(
             std::max(middle - half, wall_.from), std::min(middle + half, wall_.to), middle, radius);
-        if (points.size() < kFewest || !is_all_around(points)) return;
-        const Fit fit = robust_fit(points);
-        for (const Polar& at : points) {
-            const double place = middle + at.along * radius;
+        if (samples.size() < kFewest || !is_all_around(samples)) return;
+        const Fit fit(samples, 0.1, kWeights, 1e-9 * Fit::Normal::Identity(),
+                      Fit::Unknowns::Zero());
+        for (std::size_t i = 0; i < samples.size(); ++i) {
+            const double place = middle + samples[i].along * radius;
             if (place < own.first || place >= own.second) continue;
-            relief_.heights[at.vertex] = at.distance - terms_of(at).dot(fit.shape);
-            relief_.radii[at.vertex] = radius;
-            relief_.scatter[at.vertex] = fit.scatter;
+            relief_.heights[vertices[i]] = fit.rest[static_cast<Eigen::Index>(i)];
+            relief_.radii[vertices[i]] = radius;
+            relief_.scatter[vertices[i]] = fit.deviation;
         }
     }
 
-    [[nodiscard]] std::vector<Polar> polar_between(double from, double to, double middle,
-                                                   double radius) const {
+    [[nodiscard]] StretchWall wall_between(double from, double to, double middle,
+                                           double radius) const {
         const Vec3 centre = point_at(*wall_.line, middle);
         const Vec3 axis = tangent_at(*wall_.line, middle, radius);
         const Vec3 x = axis.unitOrthogonal(), y = axis.cross(x);
-        std::vector<Polar> points;
+        StretchWall found;
         const auto first =
             std::ranges::lower_bound(wall_.vertices, from, {}, &std::pair<double, VertexId>::first);
         for (auto it = first; it != wall_.vertices.end() && it->first <= to; ++it) {
             const Vec3 d = (surface_.points()[it->second] - centre) / radius;
-            const double a = d.dot(x), b = d.dot(y);
-            if (std::hypot(a, b) > kFarthest) continue;
-            points.push_back(
-                {it->second, (it->first - middle) / radius, std::atan2(b, a), std::hypot(a, b)});
+            const Eigen::Vector2d off(d.dot(x), d.dot(y));
+            if (off.norm() > kFarthest) continue;
+            found.vertices.push_back(it->second);
+            found.samples.push_back({.along = (it->first - middle) / radius,
+                                     .angle = std::atan2(off.y(), off.x()),
+                                     .distance = off.norm(),
+                                     .out = off.normalized()});
         }
-        return points;
+        return found;
     }
 
     const Surface& surface_;

@@ -19,10 +19,8 @@ struct WallRelief {
 
 /// Fits a tube to each stretch of 2.5 radii of a vessel: its distance from the line is a constant,
 /// an offset and an ellipse around the line, of which the first two may change along it. Vertices
-/// far off count less (Tukey's biweight, iterated), so that a bump of up to a fifth of the
-/// stretch's wall does not draw the tube towards it. Source: Holland, Welsch, "Robust regression
-/// using iteratively reweighted least-squares", 1977. \param graph centerlines of the surface
-/// \throw Cancelled
+/// far off count less (TubeFit), so that a bump of up to a fifth of the stretch's wall does not
+/// draw the tube towards it. \param graph centerlines of the surface \throw Cancelled
 [[nodiscard]] WallRelief wall_relief(const Surface& surface, const CenterlineGraph& graph,
                                      const Progress& progress = {});
 

@@ -8,6 +8,8 @@
 #include <Eigen/Dense>
 
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/robust.h"
+#include "geometry/kernel/statistics.h"
 
 namespace vesselbench {
 namespace {
@@ -54,7 +56,7 @@ std::optional<Vec3> quadratic_slope(const CenterlineBranch& branch, const std::v
     for (std::size_t i = 0; i < s.size(); ++i) {
         const double u = (s[i] - centre) / window;
         if (std::abs(u) >= 1.0) continue;
-        const double weight = (1.0 - u * u) * (1.0 - u * u);
+        const double weight = biweight(u, 1.0);
         const Vec3 basis(1.0, u, u * u);
         A += weight * basis * basis.transpose();
         b += weight * basis * branch.points[i].transpose();
@@ -194,9 +196,7 @@ double tip_radius(const CenterlineGraph& graph, std::size_t tip) {
         }
     }
     if (radii.empty()) return radius_at(branch, from_start ? 0.25 * s.back() : 0.75 * s.back());
-    const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
-    std::nth_element(radii.begin(), middle, radii.end());
-    return *middle;
+    return median(radii);
 }
 
 std::vector<std::size_t> tips_by_radius(const CenterlineGraph& graph) {

@@ -5,6 +5,8 @@
 
 #include <Eigen/Dense>
 
+#include "geometry/kernel/robust.h"
+
 namespace vesselbench {
 namespace {
 
@@ -51,8 +53,7 @@ LineFit fit_at(const Line& line, const Unrolled& un, std::size_t at, double wind
         const double u = (un.s[i] - un.s[at]) / window;
         if (std::abs(u) >= 1.0) return false;
         const std::size_t k = un.source[i];
-        const double w = (1.0 - u * u) * (1.0 - u * u) * line.weights[k];
-        r.add(u, w, line.points[k] - origin, line.radii[k]);
+        r.add(u, biweight(u, 1.0) * line.weights[k], line.points[k] - origin, line.radii[k]);
         return true;
     };
     add(at);

@@ -5,6 +5,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include "geometry/kernel/robust.h"
+#include "geometry/kernel/statistics.h"
 #include "geometry/vessel/centerlines/line_smoothing.h"
 #include "geometry/vessel/centerlines/strands.h"
 
@@ -321,12 +323,7 @@ void limit_radii(std::vector<Work>& works, const WallSections& wall) {
             if (works[w].hold[i] == Hold::Free) ratios.push_back(line.radii[i] / nearest[w][i]);
         }
     }
-    double noise = 1.0;
-    if (!ratios.empty()) {
-        const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
-        std::nth_element(ratios.begin(), middle, ratios.end());
-        noise = std::clamp(*middle, 1.0, kMostNoise);
-    }
+    const double noise = std::clamp(median(ratios), 1.0, kMostNoise);
     for (std::size_t w = 0; w < works.size(); ++w) {
         for (std::size_t i = 0; i < nearest[w].size(); ++i) {
             const double limit = noise * nearest[w][i];
@@ -359,10 +356,7 @@ void pull(Line& line, std::size_t at, const Vec3& to) {
     const double reach = 2.0 * line.radii[at];
     if (!(shift.norm() > 0.0)) return;
     const Vec3 from = line.points[at];
-    for (Vec3& p : line.points) {
-        const double u = (p - from).norm() / reach;
-        if (u < 1.0) p += (1.0 - u * u) * (1.0 - u * u) * shift;
-    }
+    for (Vec3& p : line.points) p += biweight((p - from).norm(), reach) * shift;
     line.points[at] = to;
 }
 

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <optional>
+
+#include "geometry/kernel/cross_section.h"
+#include "geometry/kernel/robust.h"
 
 namespace vesselbench {
 namespace {
@@ -30,18 +32,6 @@ struct PlaneSample {
     double distance = 0.0;
     double area = 0.0;
     std::size_t sector = 0;
-};
-
-/// Axes of the perpendicular plane; equal for equal tangents.
-struct Frame {
-    Vec3 u, v;
-
-    explicit Frame(const Vec3& tangent) {
-        Eigen::Index smallest = 0;
-        tangent.cwiseAbs().minCoeff(&smallest);
-        u = tangent.cross(Vec3::Unit(smallest)).normalized();
-        v = tangent.cross(u);
-    }
 };
 
 std::size_t sector_of(const Vec2& offset) {
@@ -177,7 +167,8 @@ WallSections::WallSections(const VesselWall& wall, double finest)
 
 WallSection WallSections::at(const LinePlace& place, double softness) const {
     WallSection section{place.point, 0.0, 0.0};
-    const Frame frame(place.tangent);
+    const auto axes = plane_axes(place.tangent);
+    const Vec3 &u = axes.first, &v = axes.second;
     const double reach = kReach * place.radius;
     std::vector<PlaneSample> inside;
     for (double slab = kSlab; slab < 1.5; slab *= 1.5) {
@@ -194,14 +185,12 @@ WallSection WallSections::at(const LinePlace& place, double softness) const {
             const double along = d.dot(place.tangent);
             if (std::abs(along) >= half || d.squaredNorm() > reach * reach) return;
             const Vec3 from_line = d - 0.5 * along * along * place.curvature;
-            const Vec2 offset(from_line.dot(frame.u), from_line.dot(frame.v));
+            const Vec2 offset(from_line.dot(u), from_line.dot(v));
             const double distance = offset.norm();
             if (distance < 1e-3 * place.radius) return;
-            const Vec3 direction = (offset.x() * frame.u + offset.y() * frame.v) / distance;
+            const Vec3 direction = (offset.x() * u + offset.y() * v) / distance;
             if (s.normal.dot(direction) < 0.2) return;  // a wall seen from outside, or a closure
-            const double u = along / half;
-            const double weight = (1.0 - u * u) * (1.0 - u * u);
-            inside.push_back({distance, weight * s.area, sector_of(offset)});
+            inside.push_back({distance, biweight(along, half) * s.area, sector_of(offset)});
         };
         tree_.traverse(touches, [&](std::uint32_t i) { take(samples_[i]); });
         if (inside.size() >= 4 * kSectors) break;
@@ -217,7 +206,7 @@ WallSection WallSections::at(const LinePlace& place, double softness) const {
     section.covered = static_cast<double>(filled) / kSectors;
     if (filled == 0) return section;
     const Vec2 centre = circle_centre(contour, softness * place.radius, 0.3 * place.radius);
-    section.centre = place.point + centre.x() * frame.u + centre.y() * frame.v;
+    section.centre = place.point + centre.x() * u + centre.y() * v;
     section.radius = circle_radius(sectors, centre);
     return section;
 }

@@ -4,7 +4,7 @@
 #include <limits>
 #include <optional>
 
-#include "geometry/kernel/cross_section.h"
+#include "geometry/kernel/whole_section.h"
 #include "geometry/vessel/ends/patch_shape.h"
 
 namespace vesselbench {
@@ -30,59 +30,41 @@ bool is_passed(const CenterlineGraph& graph, const SectionCurve& section, const 
     return false;
 }
 
-class Sections {
-public:
-    Sections(const Surface& surface, const CenterlineGraph& graph, const Stub& stub)
-        : near_(part_near(surface, stub.exit,
-                          2.0 * (stub.tip - stub.root).norm() + 3.0 * stub.parent)),
-          graph_(graph),
-          normal_((stub.tip - stub.root).normalized()) {}
-
-    /// From the innermost one that is the stub's own to its tip. Empty: it has none beyond its
-    /// parent's spheres.
-    [[nodiscard]] std::vector<StubSection> across(const Stub& stub) const {
-        std::vector<StubSection> outward, inward;
-        for (int k = 0; k < kSections; ++k)
-            if (const auto width = at(stub.exit + (stub.tip - stub.exit) * k / kSections))
-                outward.push_back(*width);
-        if (outward.empty()) return {};
-        double last = outward.front().diameter;
-        for (int k = 1; k < kSections; ++k) {
-            const auto width = at(stub.exit + (stub.root - stub.exit) * k / kSections);
-            if (!width || width->diameter > kOwnStep * last ||
-                width->diameter > kOwnGrowth * outward.front().diameter)
-                break;
-            inward.push_back(*width);
-            last = width->diameter;
-        }
-        std::ranges::reverse(inward);
-        inward.insert(inward.end(), outward.begin(), outward.end());
-        return inward;
-    }
-
-private:
-    [[nodiscard]] std::optional<StubSection> at(const Vec3& point) const {
-        const Plane plane{point, normal_};
-        const auto section = cross_section_at(near_, plane);
-        if (!section || !section->closed || !encloses(*section, plane, point) ||
-            is_passed(graph_, *section, plane))
-            return std::nullopt;
-        double least = std::numeric_limits<double>::infinity();
-        for (const Vec3& p : section->points)
-            least = std::min(least, (p - section->centroid).norm());
-        return StubSection{section->diameter(), 2.0 * least};
-    }
-
-    Surface near_;
-    const CenterlineGraph& graph_;
-    Vec3 normal_;
-};
+std::optional<StubSection> section_at(const Surface& near, const CenterlineGraph& graph,
+                                      const Plane& plane) {
+    const auto section = whole_section_at(near, plane);
+    if (!section || is_passed(graph, *section, plane)) return std::nullopt;
+    double least = std::numeric_limits<double>::infinity();
+    for (const Vec3& p : section->points) least = std::min(least, (p - section->centroid).norm());
+    return StubSection{section->diameter(), 2.0 * least};
+}
 
 }  // namespace
 
 std::vector<StubSection> stub_sections(const Surface& surface, const CenterlineGraph& graph,
                                        const Stub& stub) {
-    return Sections(surface, graph, stub).across(stub);
+    const Vec3 way = stub.tip - stub.root;
+    const Surface near = part_near(surface, stub.exit, 2.0 * way.norm() + 3.0 * stub.parent);
+    const auto towards = [&](const Vec3& end, int k) {
+        return section_at(near, graph,
+                          {stub.exit + (end - stub.exit) * k / kSections, way.normalized()});
+    };
+    std::vector<StubSection> outward, inward;
+    for (int k = 0; k < kSections; ++k)
+        if (const auto width = towards(stub.tip, k)) outward.push_back(*width);
+    if (outward.empty()) return {};
+    double last = outward.front().diameter;
+    for (int k = 1; k < kSections; ++k) {
+        const auto width = towards(stub.root, k);
+        if (!width || width->diameter > kOwnStep * last ||
+            width->diameter > kOwnGrowth * outward.front().diameter)
+            break;
+        inward.push_back(*width);
+        last = width->diameter;
+    }
+    std::ranges::reverse(inward);
+    inward.insert(inward.end(), outward.begin(), outward.end());
+    return inward;
 }
 
 }  // namespace vesselbench

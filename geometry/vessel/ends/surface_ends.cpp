@@ -8,7 +8,7 @@
 
 #include "geometry/editing/editable_surface.h"
 #include "geometry/editing/hole_filling.h"
-#include "geometry/kernel/cross_section.h"
+#include "geometry/kernel/whole_section.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
 #include "geometry/vessel/ends/patch_shape.h"
 
@@ -241,10 +241,8 @@ double section_rise(const Surface& surface, const CenterlineGraph& graph, std::s
         const BranchPlace place = place_from_node(graph, index, tip, inward);
         const Plane plane{point_at(graph.branches[index], place.abscissa),
                           outward_direction(graph, tip, inward)};
-        const auto curve = cross_section_at(near, plane);
-        if (!curve || !curve->closed || !encloses(*curve, plane, plane.point) ||
-            is_shared(graph, index, root, *curve, plane))
-            continue;
+        const auto curve = whole_section_at(near, plane);
+        if (!curve || is_shared(graph, index, root, *curve, plane)) continue;
         neck = std::min(neck, curve->diameter());
         rise = std::max(rise, curve->diameter() / neck);
     }

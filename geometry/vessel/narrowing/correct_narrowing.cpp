@@ -11,7 +11,7 @@
 #include "geometry/kernel/self_intersections.h"
 #include "geometry/kernel/surface_distance.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
-#include "geometry/vessel/openings/vessel_tube.h"
+#include "geometry/vessel/tree/tube.h"
 
 namespace vesselbench {
 
@@ -99,20 +99,19 @@ public:
             for (std::size_t i = 1; i + 1 < points.size(); ++i)
                 points[i] = 0.5 * before[i] + 0.25 * (before[i - 1] + before[i + 1]);
         }
-        std::vector<double> none(points.size(), 0.0);  // heights are distances from the axis
-        tube_.emplace(std::move(points), std::move(none), Vec3::UnitX());
-        stretched_ = (end - start_) / tube_->length();
+        tube_ = Tube(std::move(points), {});
+        stretched_ = (end - start_) / tube_.length();
     }
 
     /// \param s arc length of the branch, which is a little longer than the smooth axis [mm]
     [[nodiscard]] Vec3 at(double s) const {
-        return tube_->position((s - start_) / stretched_, 0.0, 0.0);
+        return tube_.centre(tube_.at((s - start_) / stretched_));
     }
 
     /// The arc length whose section holds x. The nearest point of a polyline jumps on the inner
     /// side of its corners; sections across a tangent that turns steadily do not.
     [[nodiscard]] double section_of(const Vec3& x) const {
-        double s = start_ + stretched_ * tube_->coordinates(x).along;
+        double s = start_ + stretched_ * tube_.along(tube_.nearest(x));
         for (int i = 0; i < kSectionSteps; ++i) {
             const Vec3 ahead = at(s + step_), behind = at(s - step_);
             s += (x - at(s)).dot((ahead - behind).normalized());
@@ -122,7 +121,7 @@ public:
 
 private:
     double start_, step_, stretched_ = 1.0;
-    std::optional<VesselTube> tube_;
+    Tube tube_;
 };
 
 /// 1: of the wall, and not at a rim or cap. #V

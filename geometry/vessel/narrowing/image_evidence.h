@@ -6,7 +6,7 @@
 
 #include "geometry/image/image.h"
 #include "geometry/vessel/narrowing/narrowing.h"
-#include "geometry/vessel/narrowing/wall_rings.h"
+#include "geometry/vessel/tree/wall_rings.h"
 
 namespace vesselbench {
 

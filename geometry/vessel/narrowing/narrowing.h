@@ -7,7 +7,7 @@
 #include "geometry/kernel/progress.h"
 #include "geometry/kernel/surface.h"
 #include "geometry/vessel/centerlines/centerline_graph.h"
-#include "geometry/vessel/narrowing/wall_rings.h"
+#include "geometry/vessel/tree/wall_rings.h"
 
 namespace vesselbench {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "geometry/image/image.h"
-#include "geometry/vessel/narrowing/wall_rings.h"
+#include "geometry/vessel/tree/wall_rings.h"
 
 namespace vesselbench {
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "geometry/kernel/measure.h"
+#include "geometry/kernel/whole_section.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
 #include "geometry/vessel/openings/opening_axis.h"
@@ -145,9 +146,8 @@ std::string CutTrials::lost_problem(const OpeningPlace& place, std::size_t end) 
 }
 
 std::string CutTrials::problem_of(const OpeningPlace& place, std::size_t end) {
-    const auto curve = cross_section_at(surface_, place.plane);
-    if (!curve || !curve->closed || !encloses(*curve, place.plane, place.plane.point))
-        return "there is no closed section";
+    const auto curve = whole_section_at(surface_, place.plane);
+    if (!curve) return "there is no closed section";
     if (curve->area <= 0.0 && volume(surface_) > 0.0) return "the wall lies inside out there";
     strip_.clear();
     for (const TriangleId t : curve->triangles) {

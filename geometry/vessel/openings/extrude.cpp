@@ -45,9 +45,10 @@ Vec3 rise_of(const Plane& plane, const ExtrusionParameters& parameters) {
 
 /// The tube to be added: rings with equal numbers of points, each ring turned by half a step.
 /// Heights are above the cap; the parameters' length is a height, too.
-class Tube {
+class AddedTube {
 public:
-    Tube(const ClosedProfile& profile, const Plane& plane, const ExtrusionParameters& parameters)
+    AddedTube(const ClosedProfile& profile, const Plane& plane,
+              const ExtrusionParameters& parameters)
         : profile_(profile),
           plane_(plane),
           parameters_(parameters),
@@ -122,7 +123,7 @@ struct Probes {
 };
 
 /// \param margins fraction of the free space (kFreeInFront, kFreeAtSides) to keep, 0 or 1
-Probes probes_of(const Tube& tube, int layers, double layer_height, double margins) {
+Probes probes_of(const AddedTube& tube, int layers, double layer_height, double margins) {
     const auto shares = tube.shares(2);
     const std::vector<Triangle> band = band_between(shares, shares);
     Probes probes;
@@ -149,7 +150,8 @@ Probes probes_of(const Tube& tube, int layers, double layer_height, double margi
 
 /// Length that is free in front of the opening [mm].
 /// \param margins as in probes_of
-double free_length(const Surface& without_cap, const Tube& tube, double wanted, double margins) {
+double free_length(const Surface& without_cap, const AddedTube& tube, double wanted,
+                   double margins) {
     const double in_front = margins * kFreeInFront * tube.diameter();
     const double end = wanted + in_front;
     const int layers = tube.layers(end);
@@ -188,7 +190,7 @@ public:
 
     Surface without_cap() const { return surface_.to_surface(); }
 
-    Surface with_tube(const Tube& tube, const ClosedProfile& profile, const Plane& plane,
+    Surface with_tube(const AddedTube& tube, const ClosedProfile& profile, const Plane& plane,
                       double length) {
         const int layers = tube.layers(length);
         Ring lower{rim_.loop, tube.shares(0)};
@@ -235,7 +237,7 @@ Extrusion extrude_opening(const Surface& surface, std::size_t patch,
     const double way = rise_of(shape.plane, parameters).norm(), height = parameters.length / way;
     ExtrusionParameters used = parameters;
     used.length = height;
-    const Tube wanted(profile, shape.plane, used);
+    const AddedTube wanted(profile, shape.plane, used);
     if (const double most = way * wanted.length_of(kMostTriangles); parameters.length > most)
         throw DiagnosedFailure(
             {.code = "extrusion-too-long",
@@ -247,7 +249,7 @@ Extrusion extrude_opening(const Surface& surface, std::size_t patch,
     const Surface rest = extruder.without_cap();
     if (parameters.may_shorten)
         used.length = std::min(height, free_length(rest, wanted, height, 1.0));
-    const Tube tube(profile, shape.plane, used);
+    const AddedTube tube(profile, shape.plane, used);
     if (used.length < std::min(height, kLeastDiameters * shape.diameter()) ||
         free_length(rest, tube, used.length, 0.0) < used.length)
         return {surface, 0.0, true};

@@ -10,6 +10,7 @@
 
 #include "geometry/kernel/edges.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/statistics.h"
 #include "geometry/vessel/openings/wall_axis.h"
 
 namespace vesselbench {
@@ -60,9 +61,7 @@ using Track = std::vector<TrackSection>;
 double median_radius(const Track& track) {
     std::vector<double> radii;
     for (const TrackSection& section : track) radii.push_back(section.radius);
-    const auto middle = radii.begin() + static_cast<std::ptrdiff_t>(radii.size() / 2);
-    std::nth_element(radii.begin(), middle, radii.end());
-    return *middle;
+    return median(radii);
 }
 
 bool within(double ratio, double factor) {

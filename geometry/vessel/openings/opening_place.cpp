@@ -8,6 +8,7 @@
 
 #include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/whole_section.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
 #include "geometry/vessel/ends/surface_ends.h"
@@ -162,8 +163,8 @@ public:
 
     /// The closed curve around the plane's point that lies entirely on the wall.
     std::optional<SectionCurve> section(const Plane& plane) const {
-        auto curve = cross_section_at(near_, plane);
-        if (!curve || !curve->closed || !encloses(*curve, plane, plane.point)) return std::nullopt;
+        auto curve = whole_section_at(near_, plane);
+        if (!curve) return std::nullopt;
         for (const TriangleId t : curve->triangles)
             if (near_.patch_of(t).kind != PatchKind::Wall) return std::nullopt;
         return curve;

@@ -17,7 +17,7 @@
 #include "geometry/kernel/shortest_paths.h"
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/ends/surface_ends.h"
-#include "geometry/vessel/openings/vessel_tube.h"
+#include "geometry/vessel/openings/branch_root.h"
 
 namespace vesselbench {
 
@@ -37,7 +37,7 @@ constexpr double kWidestFillet = 1.2;
 constexpr double kWidestMargin = 0.4;
 
 /// Distance from the tubes' walls [mm], negative inside.
-double height_over(const std::vector<VesselTube>& tubes, const Vec3& x) {
+double height_over(const std::vector<Tube>& tubes, const Vec3& x) {
     double least = std::numeric_limits<double>::infinity();
     for (const auto& tube : tubes) least = std::min(least, tube.coordinates(x).height);
     return least;
@@ -219,7 +219,7 @@ std::vector<VertexId> single_rim(const Surface& surface, std::vector<std::uint8_
 }
 
 /// The tube as a chart if the rim is on its side; coordinates (out, around, along).
-std::optional<HoleChart> chart_on(const VesselTube& tube, const Positions& rim, const Vec3& mouth) {
+std::optional<HoleChart> chart_on(const Tube& tube, const Positions& rim, const Vec3& mouth) {
     const double radius = tube.radius(tube.coordinates(mouth).along);
     for (const Vec3& x : rim) {
         const auto at = tube.coordinates(x);

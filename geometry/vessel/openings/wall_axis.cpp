@@ -5,13 +5,12 @@
 #include <numbers>
 #include <vector>
 
-#include <Eigen/Dense>
 #include <Eigen/Geometry>
 
-#include "geometry/kernel/statistics.h"
 #include "geometry/kernel/unsmoothed.h"
 #include "geometry/kernel/wall_edges.h"
 #include "geometry/vessel/openings/angle.h"
+#include "geometry/vessel/tree/tube_fit.h"
 
 namespace vesselbench {
 
@@ -44,34 +43,21 @@ constexpr double kInnermost = 0.6, kOutermost = 1.45;
 constexpr double kSmoothedAway = 0.4;
 /// A vertex farther off the wall than this many times the usual distance does not count.
 constexpr double kOutlier = 4.0;
-constexpr int kTurns = 6;
+constexpr int kTurns = 6, kWeightings = 3;
 constexpr int kFootSteps = 3;
 
-/// Unknowns: the line's offsets along two axes, the radius, the second and third harmonic of its
-/// outline.
-constexpr Eigen::Index kPowers = 6, kRadius = 3, kShape = 4;
-constexpr Eigen::Index kRadiusAt = 2 * kPowers, kShapeAt = kRadiusAt + kRadius;
-constexpr Eigen::Index kUnknowns = kShapeAt + kShape;
+/// A line of degree 5, an outline out of round by its second and third harmonic.
+constexpr Eigen::Index kPowers = 6, kShape = 4;
+using Fit = TubeFit<kPowers, kShape>;
 /// Standard deviations of the derivatives of a vessel's line, of those of its radius, and of the
 /// harmonics.
 constexpr double kUsualDerivative[kPowers] = {0.0, 0.0, 0.25, 0.25, 0.5, 1.0};
 constexpr double kUsualTaper = 0.5, kUsualShape = 0.05;
 
-using Powers = Eigen::Matrix<double, 1, kPowers>;
 using Line = Eigen::Matrix<double, kPowers, 3>;
-using Unknowns = Eigen::Matrix<double, kUnknowns, 1>;
-using Normal = Eigen::Matrix<double, kUnknowns, kUnknowns>;
-using Rows = Eigen::Matrix<double, Eigen::Dynamic, kUnknowns>;
 
-Powers powers(double t) {
-    Powers row;
-    double p = 1.0;
-    for (Eigen::Index k = 0; k < kPowers; ++k, p *= t) row[k] = p;
-    return row;
-}
-
-Powers slopes(double t) {
-    Powers row = Powers::Zero();
+Fit::Series slopes(double t) {
+    Fit::Series row = Fit::Series::Zero();
     double p = 1.0;
     for (Eigen::Index k = 1; k < kPowers; ++k, p *= t) row[k] = static_cast<double>(k) * p;
     return row;
@@ -100,9 +86,9 @@ std::vector<Vec3> wall_near(const Surface& surface, const Plane& plane, double d
 }
 
 /// A tube around a line, fitted to points.
-class Tube {
+class FittedWall {
 public:
-    Tube(const std::vector<Vec3>& points, const Vec3& inward, const Stretch& stretch)
+    FittedWall(const std::vector<Vec3>& points, const Vec3& inward, const Stretch& stretch)
         : points_(points), stretch_(stretch) {
         line_.setZero();
         line_.row(1) = inward.transpose();
@@ -126,7 +112,7 @@ public:
 
     /// Standard deviation of the direction [deg].
     [[nodiscard]] double doubt_deg(double t) const {
-        const Powers slope = slopes(t);
+        const Fit::Series slope = slopes(t);
         double variance = 0.0;
         for (const Eigen::Index at : {Eigen::Index{0}, kPowers})
             variance += (slope * spread_.block<kPowers, kPowers>(at, at)).dot(slope);
@@ -138,48 +124,37 @@ private:
     double foot_of(const Vec3& p, double t) const {
         for (int step = 0; step < kFootSteps; ++step) {
             const Vec3 way = (slopes(t) * line_).transpose();
-            const Vec3 off = p - (powers(t) * line_).transpose();
+            const Vec3 off = p - (Fit::powers(t) * line_).transpose();
             t = std::clamp(t + off.dot(way) / way.squaredNorm(), stretch_.from - 0.5,
                            stretch_.to + 0.5);
         }
         return t;
     }
 
-    /// The equations of the points along the stretch. \return false if there are too few
-    bool take_points(const Vec3& forward, const Vec3& u, const Vec3& v) {
-        std::vector<Eigen::Matrix<double, 1, kUnknowns>> rows;
-        std::vector<double> distances;
+    /// The points along the stretch.
+    std::vector<TubeSample> samples(const Vec3& forward, const Vec3& u, const Vec3& v) {
+        std::vector<TubeSample> found;
         for (std::size_t i = 0; i < points_.size(); ++i) {
             const double t = feet_[i] = foot_of(points_[i], feet_[i]);
             if (t < stretch_.from || t > stretch_.to) continue;
             const Vec3 way = direction(t);
-            Vec3 off = points_[i] - (powers(t) * line_).transpose();
+            Vec3 off = points_[i] - (Fit::powers(t) * line_).transpose();
             off -= off.dot(way) * way;
             const double distance = off.norm();
             const double radius = radius_[0] + t * (radius_[1] + t * radius_[2]);
             if (distance < kInnermost * radius || distance > kOutermost * radius) continue;
             const Vec3 out = off / distance;
             const Vec3 turned = Eigen::Quaterniond::FromTwoVectors(way, forward) * out;
-            const double angle = std::atan2(turned.dot(v), turned.dot(u));
-            Eigen::Matrix<double, 1, kUnknowns> row;
-            row.segment<kPowers>(0) = out.dot(u) * powers(t);
-            row.segment<kPowers>(kPowers) = out.dot(v) * powers(t);
-            row.segment<kRadius>(kRadiusAt) = powers(t).head<kRadius>();
-            row.segment<kShape>(kShapeAt) << std::cos(2.0 * angle), std::sin(2.0 * angle),
-                std::cos(3.0 * angle), std::sin(3.0 * angle);
-            rows.push_back(row);
-            distances.push_back(distance);
+            found.push_back({.along = t,
+                             .angle = std::atan2(turned.dot(v), turned.dot(u)),
+                             .distance = distance,
+                             .out = {out.dot(u), out.dot(v)}});
         }
-        if (rows.size() < kFewest) return false;
-        const auto n = static_cast<Eigen::Index>(rows.size());
-        rows_.resize(n, kUnknowns);
-        for (Eigen::Index i = 0; i < n; ++i) rows_.row(i) = rows[static_cast<std::size_t>(i)];
-        distances_ = Eigen::Map<const Eigen::VectorXd>(distances.data(), n);
-        return true;
+        return found;
     }
 
     /// What is known of the unknowns before: inverse variances, and means times these.
-    void add_usual(Normal& normal, Unknowns& right, const Vec3& u, const Vec3& v) const {
+    void add_usual(Fit::Normal& normal, Fit::Unknowns& right, const Vec3& u, const Vec3& v) const {
         const auto add = [&](Eigen::Index at, double deviation, double mean) {
             normal(at, at) += 1.0 / (deviation * deviation);
             right[at] += mean / (deviation * deviation);
@@ -190,49 +165,30 @@ private:
             add(k, kUsualDerivative[k] / factorial, -line_.row(k).dot(u));
             add(kPowers + k, kUsualDerivative[k] / factorial, -line_.row(k).dot(v));
         }
-        for (Eigen::Index k = 1; k < kRadius; ++k) add(kRadiusAt + k, kUsualTaper, 0.0);
-        for (Eigen::Index k = 0; k < kShape; ++k) add(kShapeAt + k, kUsualShape, 0.0);
-    }
-
-    /// Solves with the weights, and measures the scatter that is left.
-    Unknowns solved(const Eigen::VectorXd& weights, const Vec3& u, const Vec3& v) {
-        const double each = 1.0 / (kAlike * scatter_ * scatter_);
-        const Normal data = each * rows_.transpose() * weights.asDiagonal() * rows_;
-        Unknowns right = each * rows_.transpose() * weights.cwiseProduct(distances_);
-        Normal normal = data;
-        add_usual(normal, right, u, v);
-        const Eigen::LLT<Normal> solver(normal);
-        spread_ = solver.solve(Normal::Identity());
-        const Unknowns found = solver.solve(right);
-        rest_ = distances_ - rows_ * found;
-        // Unknowns that the points determine, not what is usual.
-        const double determined = (data * spread_).trace(), count = weights.sum();
-        scatter_ = std::max(
-            std::sqrt(weights.dot(rest_.cwiseAbs2()) / std::max(count - determined, 0.15 * count)),
-            kLeastScatter);
-        return found;
-    }
-
-    Eigen::VectorXd weights_of_rest() const {
-        const Eigen::VectorXd size = rest_.cwiseAbs();
-        const double usual =
-            std::max(1.48 * median(std::vector<double>(size.begin(), size.end())), kLeastScatter);
-        return (1.0 - (size / (kOutlier * usual)).array().square()).cwiseMax(0.0).square();
+        for (Eigen::Index k = 1; k < Fit::kRadius; ++k) add(Fit::kRadiusAt + k, kUsualTaper, 0.0);
+        for (Eigen::Index k = 0; k < kShape; ++k) add(Fit::kShapeAt + k, kUsualShape, 0.0);
     }
 
     bool improve(int turn) {
-        constexpr int kWeightings = 3;
         const Vec3 forward = direction(0.0), u = forward.unitOrthogonal(), v = forward.cross(u);
-        if (!take_points(forward, u, v)) return false;
-        Eigen::VectorXd weights = Eigen::VectorXd::Ones(rows_.rows());
-        Unknowns found = solved(weights, u, v);
-        for (int i = 1; turn > 0 && i < kWeightings; ++i) {
-            weights = weights_of_rest();
-            found = solved(weights, u, v);
-        }
+        const std::vector<TubeSample> wall = samples(forward, u, v);
+        if (wall.size() < kFewest) return false;
+        Fit::Normal usual = Fit::Normal::Zero();
+        Fit::Unknowns right = Fit::Unknowns::Zero();
+        add_usual(usual, right, u, v);
+        const Fit fit(wall, scatter_,
+                      {.rounds = turn > 0 ? kWeightings : 1,
+                       .deviation = 1.48,
+                       .reach = kOutlier,
+                       .least = kLeastScatter,
+                       .alike = kAlike},
+                      usual, right);
+        scatter_ = fit.scatter;
+        spread_ = fit.spread;
+        const Fit::Unknowns& found = fit.unknowns;
         line_ += found.segment<kPowers>(0) * u.transpose() +
                  found.segment<kPowers>(kPowers) * v.transpose();
-        radius_ = found.segment<kRadius>(kRadiusAt);
+        radius_ = found.segment<Fit::kRadius>(Fit::kRadiusAt);
         // The parameter is the length along the line at the plane.
         const double pace = line_.row(1).norm();
         double p = 1.0;
@@ -244,16 +200,14 @@ private:
     Stretch stretch_;
     std::vector<double> feet_;
     Line line_;
-    Eigen::Matrix<double, kRadius, 1> radius_;
-    Rows rows_;
-    Eigen::VectorXd distances_, rest_;
+    Eigen::Matrix<double, Fit::kRadius, 1> radius_;
     double scatter_ = 0.02;
-    Normal spread_ = Normal::Zero();
+    Fit::Normal spread_ = Fit::Normal::Zero();
 };
 
 std::optional<WallAxis> axis_of_stretch(const std::vector<Vec3>& points, const Vec3& inward,
                                         const Stretch& stretch, double at) {
-    Tube tube(points, inward, stretch);
+    FittedWall tube(points, inward, stretch);
     if (!tube.fit()) return std::nullopt;
     const double turned = std::max(std::min(at + 1.0, stretch.to), at + 0.1);
     return WallAxis{

@@ -5,10 +5,11 @@
 #include <deque>
 #include <numbers>
 #include <unordered_set>
+#include <utility>
 
-#include "geometry/kernel/cross_section.h"
 #include "geometry/kernel/disjoint_sets.h"
 #include "geometry/kernel/measure.h"
+#include "geometry/kernel/whole_section.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
 #include "geometry/vessel/centerlines/line_smoothing.h"
 
@@ -35,20 +36,13 @@ Rod rest_rod(const CenterlineGraph& graph, std::size_t branch, std::size_t root_
     }
     line.weights.assign(line.points.size(), 1.0);
     line = resampled(line, kSpacing, 8);
-    Rod rod{.branch = branch,
-            .root_node = root_node,
-            .far_node = course.start_node == root_node ? course.end_node : course.start_node,
-            .parent = {},
-            .points = {},
-            .radii = line.radii,
-            .along = {0.0},
-            .free_end =
-                graph.nodes[course.start_node == root_node ? course.end_node : course.start_node]
-                    .is_tip(),
-            .elements = {}};
-    for (const LineFit& fit : fit_line(line, 1.0, 0.0)) rod.points.push_back(fit.point);
-    for (std::size_t i = 1; i < rod.points.size(); ++i)
-        rod.along.push_back(rod.along.back() + (rod.points[i] - rod.points[i - 1]).norm());
+    Positions points;
+    for (const LineFit& fit : fit_line(line, 1.0, 0.0)) points.push_back(fit.point);
+    Rod rod{{std::move(points), line.radii}};
+    rod.branch = branch;
+    rod.root_node = root_node;
+    rod.far_node = other_node(graph, branch, root_node);
+    rod.free_end = graph.nodes[rod.far_node].is_tip();
     return rod;
 }
 
@@ -96,11 +90,9 @@ struct Loop {
 
 /// The closed section around the axis at a point; none: another vessel is part of it.
 std::optional<Loop> loop_at(const Surface& surface, const Rod& rod, std::size_t point) {
-    const Plane plane{rod.points[point], rod.tangent(point)};
-    auto curve = cross_section_at(surface, plane);
-    if (!curve || !curve->closed || !encloses(*curve, plane, plane.point)) return std::nullopt;
-    const double disc = std::numbers::pi * rod.radii[point] * rod.radii[point];
-    if (std::abs(curve->area) > kLargestSection * disc) return std::nullopt;
+    auto curve = whole_section_at(surface, {rod.points()[point], rod.tangent(point)});
+    const double disc = std::numbers::pi * rod.radii()[point] * rod.radii()[point];
+    if (!curve || std::abs(curve->area) > kLargestSection * disc) return std::nullopt;
     return Loop{std::move(*curve), point};
 }
 
@@ -110,9 +102,9 @@ struct Loops {
 
 /// Moves the ends of what bends inward to the first closed sections.
 std::optional<Loops> loops_of(const Surface& surface, Rod& rod) {
-    const auto stretch = [&] { return rod.along[rod.end] - rod.along[rod.begin]; };
+    const auto stretch = [&] { return rod.along()[rod.end] - rod.along()[rod.begin]; };
     const auto enough = [&] {
-        return rod.begin < rod.end && stretch() >= kLeastLength * rod.radii[rod.begin];
+        return rod.begin < rod.end && stretch() >= kLeastLength * rod.radii()[rod.begin];
     };
     std::optional<Loop> first, last;
     for (; enough() && !first; rod.begin += first ? 0 : 1) first = loop_at(surface, rod, rod.begin);
@@ -196,7 +188,7 @@ private:
     }
 
     [[nodiscard]] std::uint32_t last_segment(std::size_t rod) const {
-        return static_cast<std::uint32_t>(rods_[rod].points.size() - 2);
+        return static_cast<std::uint32_t>(rods_[rod].points().size() - 2);
     }
 
     /// Nearest places on the axis, from neighbour to neighbour, so that no vertex is bound to
@@ -211,32 +203,23 @@ private:
             open.push_back(v);
         };
         for (const SectionCrossing& c : loops_[rod].first.curve.crossings)
-            reach(c.above, rods_[rod].along[loops_[rod].first.point]);
+            reach(c.above, rods_[rod].along()[loops_[rod].first.point]);
         while (!open.empty()) {
             const VertexId v = open.front();
             open.pop_front();
             const Binding& at = bindings[v];
             const double here =
-                std::lerp(rods_[rod].along[at.segment], rods_[rod].along[at.segment + 1], at.t);
+                std::lerp(rods_[rod].along()[at.segment], rods_[rod].along()[at.segment + 1], at.t);
             for (const VertexId u : surface_.topology->rings().row(v)) reach(u, here);
         }
     }
 
     static void place(const Rod& rod, const Vec3& x, double near, Binding& binding) {
-        const std::size_t middle = rod.segment_at(near);
-        const double window = 2.0 * rod.radii[middle];
-        const std::size_t first = std::max(rod.begin, rod.segment_at(near - window)),
-                          last = std::min(rod.end - 1, rod.segment_at(near + window));
-        double least = std::numeric_limits<double>::infinity();
-        for (std::size_t i = first; i <= last; ++i) {
-            const Vec3 side = rod.points[i + 1] - rod.points[i];
-            const double t = std::clamp(side.dot(x - rod.points[i]) / side.squaredNorm(), 0.0, 1.0);
-            const double d = (rod.points[i] + t * side - x).squaredNorm();
-            if (d >= least) continue;
-            least = d;
-            binding.segment = static_cast<std::uint32_t>(i);
-            binding.t = t;
-        }
+        const double window = 2.0 * rod.radii()[rod.at(near).segment];
+        const AxisPlace at = rod.nearest(x, std::max(rod.begin, rod.at(near - window).segment),
+                                         std::min(rod.end - 1, rod.at(near + window).segment));
+        binding.segment = static_cast<std::uint32_t>(at.segment);
+        binding.t = at.t;
     }
 
     const Surface& surface_;
@@ -267,8 +250,8 @@ public:
         const double before = rigid_length(graph_, rod.branch, rod.root_node),
                      after = rigid_length(graph_, rod.branch, rod.far_node);
         if (before + after >= length) return leave_out(rod, "branch-too-short-to-bend");
-        rod.begin = rod.segment_at(before) + 1;
-        rod.end = rod.segment_at(length - after);
+        rod.begin = rod.at(before).segment + 1;
+        rod.end = rod.at(length - after).segment;
         if (auto loops = loops_of(surface_, rod)) {
             rods_.push_back(std::move(rod));
             loops_.push_back(std::move(*loops));
@@ -299,7 +282,7 @@ public:
 
 private:
     void leave_out(const Rod& rod, const char* code) {
-        stiff_.push_back({rod.branch, code, rod.points[rod.points.size() / 2], rod.length()});
+        stiff_.push_back({rod.branch, code, rod.points()[rod.points().size() / 2], rod.length()});
     }
 
     void drop(std::size_t rod, const char* code) {
@@ -311,11 +294,11 @@ private:
     /// Bends half a radius less at its tips. \return false if too little is left
     bool retreat(std::size_t index) {
         Rod& rod = rods_[index];
-        const double step = 0.5 * rod.radii[rod.end];
+        const double step = 0.5 * rod.radii()[rod.end];
         if (graph_.nodes[rod.far_node].is_tip())
-            rod.end = rod.segment_at(std::max(0.0, rod.along[rod.end] - step));
+            rod.end = rod.at(std::max(0.0, rod.along()[rod.end] - step)).segment;
         if (graph_.nodes[rod.root_node].is_tip())
-            rod.begin = rod.segment_at(rod.along[rod.begin] + step) + 1;
+            rod.begin = rod.at(rod.along()[rod.begin] + step).segment + 1;
         auto loops = loops_of(surface_, rod);
         if (loops) loops_[index] = std::move(*loops);
         return loops.has_value();
@@ -349,17 +332,6 @@ private:
 };
 
 }  // namespace
-
-Vec3 Rod::tangent(std::size_t point) const {
-    const std::size_t before = point == 0 ? 0 : point - 1,
-                      after = std::min(point + 1, points.size() - 1);
-    return (points[after] - points[before]).normalized();
-}
-
-std::size_t Rod::segment_at(double abscissa) const {
-    const auto after = std::upper_bound(along.begin() + 1, along.end() - 1, abscissa);
-    return static_cast<std::size_t>(after - along.begin()) - 1;
-}
 
 std::size_t root_of(const Surface& surface, const CenterlineGraph& graph, std::size_t branch) {
     const std::size_t start = graph.branches[branch].start_node;
@@ -404,23 +376,23 @@ Armature make_armature(const Surface& surface, const CenterlineGraph& graph,
 }
 
 void divide(Rod& rod, double from, double to, double fade, double spacing) {
-    const double first = rod.along[rod.begin], last = rod.along[rod.end];
+    const double first = rod.along()[rod.begin], last = rod.along()[rod.end];
     const bool fades_out = to < last || !rod.free_end;
     from = std::max(from, first);
     to = std::min(to, last);
     rod.elements.clear();
     for (std::size_t i = rod.begin; i < rod.end;) {
         std::size_t j = i + 1;
-        while (j < rod.end && rod.along[j] - rod.along[i] < spacing) ++j;
-        const double middle = 0.5 * (rod.along[i] + rod.along[j]);
-        if (rod.along[i] >= from && rod.along[j] <= to) {
+        while (j < rod.end && rod.along()[j] - rod.along()[i] < spacing) ++j;
+        const double middle = 0.5 * (rod.along()[i] + rod.along()[j]);
+        if (rod.along()[i] >= from && rod.along()[j] <= to) {
             double share = std::min(1.0, (middle - from) / fade);
             if (fades_out) share = std::min(share, (to - middle) / fade);
             rod.elements.push_back(
                 {.first = i,
                  .last = j,
-                 .length = rod.along[j] - rod.along[i],
-                 .radius = rod.radii[(i + j) / 2],
+                 .length = rod.along()[j] - rod.along()[i],
+                 .radius = rod.radii()[(i + j) / 2],
                  .flexibility = std::max(kLeastFlexibility, share * share * (3.0 - 2.0 * share))});
         }
         i = j;

@@ -9,6 +9,7 @@
 #include "geometry/kernel/progress.h"
 #include "geometry/kernel/surface.h"
 #include "geometry/vessel/centerlines/centerline_graph.h"
+#include "geometry/vessel/tree/tube.h"
 
 namespace vesselbench {
 
@@ -20,25 +21,15 @@ struct RodElement {
     double flexibility = 1.0;         ///< (0, 1]: less where bending fades out [-]
 };
 
-/// A branch as an inextensible elastic rod, from its end at the root of the tree to its far end.
-struct Rod {
+/// A branch as an inextensible elastic rod, whose smooth axis at rest leads from its end at the
+/// root of the tree to its far end.
+struct Rod : Tube {
     std::size_t branch = 0;  ///< of the centerline graph
     std::size_t root_node = 0, far_node = 0;
     std::optional<std::size_t> parent;  ///< the rod whose far end carries this one's root
-    Positions points;                   ///< smooth axis at rest [mm]
-    std::vector<double> radii;          ///< [mm], #points
-    std::vector<double> along;          ///< arc length from the root [mm], #points
-    std::size_t begin = 0, end = 0;     ///< points between which it may bend
+    std::size_t begin = 0, end = 0;     ///< points of the axis between which it may bend
     bool free_end = false;              ///< nothing but a vessel's end hangs on it
     std::vector<RodElement> elements;
-
-    [[nodiscard]] double length() const { return along.back(); }
-
-    /// Unit direction away from the root.
-    [[nodiscard]] Vec3 tangent(std::size_t point) const;
-
-    /// The segment that contains an arc length; clamped.
-    [[nodiscard]] std::size_t segment_at(double abscissa) const;
 };
 
 /// What carries a point of the surface.

@@ -70,8 +70,8 @@ double sharpest_of(const Rod& rod, const RodPose& pose) {
         const Vec3 before = pose.points[i] - pose.points[i - 5],
                    after = pose.points[i + 5] - pose.points[i];
         const double turn = std::atan2(before.cross(after).norm(), before.dot(after));
-        const double length = 0.5 * (rod.along[i + 5] - rod.along[i - 5]);
-        if (turn > 0.0) sharpest = std::min(sharpest, length / turn / rod.radii[i]);
+        const double length = 0.5 * (rod.along()[i + 5] - rod.along()[i - 5]);
+        if (turn > 0.0) sharpest = std::min(sharpest, length / turn / rod.radii()[i]);
     }
     return sharpest;
 }
@@ -96,7 +96,7 @@ public:
         divide(rod, at_ - reach_, at_ + reach_, kFade * reach_,
                std::max(kElement * chosen_.radius, bends / kMostElements));
         if (rod.elements.empty() ||
-            (rod.along[rod.elements.front().first] >= at_ && deformation.move != Vec3::Zero()))
+            (rod.along()[rod.elements.front().first] >= at_ && deformation.move != Vec3::Zero()))
             throw DiagnosedFailure({.code = "place-is-rigid", .place = deformation.at});
     }
 
@@ -104,13 +104,10 @@ public:
         const Rod& rod = armature_.rods.front();
         const Bends natural = straightening(rod, deformation_.straighten);
         RodEnergy energy(armature_, natural, [&](double) { return reach_; });
-        const std::size_t segment = rod.segment_at(at_);
-        const Binding at{.rod = 0,
-                         .segment = static_cast<std::uint32_t>(segment),
-                         .t = std::clamp((at_ - rod.along[segment]) /
-                                             (rod.along[segment + 1] - rod.along[segment]),
-                                         0.0, 1.0)};
-        const Vec3 rest = (1.0 - at.t) * rod.points[segment] + at.t * rod.points[segment + 1];
+        const AxisPlace place = rod.at(at_);
+        const Binding at{
+            .rod = 0, .segment = static_cast<std::uint32_t>(place.segment), .t = place.t};
+        const Vec3 rest = rod.centre(place);
         if (deformation_.move != Vec3::Zero()) pull(energy, at, rest, progress);
         return finish(energy, at, rest, progress);
     }
@@ -152,7 +149,7 @@ private:
 
     /// Unit direction of the branch at the place before it is moved.
     [[nodiscard]] Vec3 course_at(const RodPose& pose) const {
-        const std::size_t i = armature_.rods.front().segment_at(at_);
+        const std::size_t i = armature_.rods.front().at(at_).segment;
         return (pose.points[i + 1] - pose.points[i]).normalized();
     }
 

@@ -40,9 +40,10 @@ public:
         std::iota(all.begin(), all.end(), 0);
         armature_ = make_armature(surface, graph, all, progress);
         double total = 0.0;
-        for (const Rod& rod : armature_.rods) total += rod.along[rod.end] - rod.along[rod.begin];
+        for (const Rod& rod : armature_.rods)
+            total += rod.along()[rod.end] - rod.along()[rod.begin];
         for (Rod& rod : armature_.rods) {
-            const double radius = rod.radii[(rod.begin + rod.end) / 2];
+            const double radius = rod.radii()[(rod.begin + rod.end) / 2];
             divide(rod, 0.0, rod.length(), kFade * radius,
                    std::max(kElement * radius, total / kMostElements));
         }
@@ -151,7 +152,7 @@ private:
 
     [[nodiscard]] std::vector<BranchShift> shifts() const {
         std::vector<BranchShift> all;
-        for (const Rod& rod : armature_.rods) all.push_back({.end = rod.points.back()});
+        for (const Rod& rod : armature_.rods) all.push_back({.end = rod.points().back()});
         for (VertexId v = 0; v < surface_.vertex_count(); ++v) {
             const std::uint32_t rod = armature_.bindings[v].rod;
             if (rod == Binding::kFixed) continue;

@@ -79,15 +79,15 @@ void RodEnergy::add_springs(const std::function<double(double)>& reach) {
         };
         for (const RodElement& e : rod.elements) add(e.last, e.length, e.radius);
         if (rod.elements.empty()) continue;
-        const double rest = rod.length() - rod.along[rod.elements.back().last];
-        if (rest > 0.0) add(rod.points.size() - 1, rest, rod.radii.back());
+        const double rest = rod.length() - rod.along()[rod.elements.back().last];
+        if (rest > 0.0) add(rod.points().size() - 1, rest, rod.radii().back());
     }
     for (const Spring& spring : springs_) pull_weight_ = std::max(pull_weight_, spring.root_weight);
 }
 
 void RodEnergy::hold_displaced(std::size_t rod, double from, const Vec3& by) {
     for (Spring& spring : springs_)
-        if (spring.at.rod == rod && armature_.rods[rod].along[spring.at.segment + 1] > from)
+        if (spring.at.rod == rod && armature_.rods[rod].along()[spring.at.segment + 1] > from)
             spring.held = spring.rest + by;
 }
 
@@ -96,14 +96,14 @@ Eigen::RowVectorXd RodEnergy::row(const Binding& at, const Vec3& point,
                                   const Vec3& direction) const {
     Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(bends_.size());
     if (at.rod == Binding::kFixed) return row;
-    double place = std::lerp(armature_.rods[at.rod].along[at.segment],
-                             armature_.rods[at.rod].along[at.segment + 1], at.t);
+    double place = std::lerp(armature_.rods[at.rod].along()[at.segment],
+                             armature_.rods[at.rod].along()[at.segment + 1], at.t);
     for (std::optional<std::size_t> r = at.rod; r; r = armature_.rods[*r].parent) {
         const Rod& rod = armature_.rods[*r];
         for (std::size_t e = 0; e < rod.elements.size(); ++e) {
             const RodElement& element = rod.elements[e];
             const double share =
-                std::clamp((place - rod.along[element.first]) / element.length, 0.0, 1.0);
+                std::clamp((place - rod.along()[element.first]) / element.length, 0.0, 1.0);
             if (share == 0.0) break;
             const std::size_t middle = (element.first + element.last) / 2;
             const RodPose& bent = poses_[*r];

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "geometry/editing/hole_patch.h"
+#include "geometry/kernel/statistics.h"
 #include "geometry/kernel/surface_distance.h"
 #include "geometry/vessel/repair/soup.h"
 
@@ -123,9 +124,7 @@ double lumen_radius(const TriangleSoup& mesh, const SurfaceDistance& distance,
         }
     }
     if (2 * widths.size() < rim_triangles.size() || widths.empty()) return 0.0;
-    const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
-    std::nth_element(widths.begin(), middle, widths.end());
-    return 0.5 * *middle;
+    return 0.5 * median(widths);
 }
 
 /// \return OpenLoop::facing

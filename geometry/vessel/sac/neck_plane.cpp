@@ -13,7 +13,8 @@
 #include "geometry/kernel/wording.h"
 #include "geometry/vessel/centerlines/centerline_graph.h"
 #include "geometry/vessel/openings/branch_part.h"
-#include "geometry/vessel/openings/vessel_tube.h"
+#include "geometry/vessel/openings/branch_root.h"
+#include "geometry/vessel/tree/tube.h"
 
 namespace vesselbench {
 
@@ -24,7 +25,7 @@ namespace {
 constexpr std::array kProtrusions = {0.2, 0.4, 0.7, 1.0, 1.5};
 
 /// Height over the nearest of the tubes [radii of it].
-double relative_height(const std::vector<VesselTube>& tubes, const Vec3& x) {
+double relative_height(const std::vector<Tube>& tubes, const Vec3& x) {
     double least = std::numeric_limits<double>::infinity();
     for (const auto& tube : tubes) {
         const TubeCoordinates at = tube.coordinates(x);
@@ -110,7 +111,7 @@ Plane border_plane(const Surface& surface, const std::vector<VertexId>& inside) 
 /// The plane at which the sac stands out of its parent's tube.
 std::optional<Plane> first_guess(const Surface& surface, const BranchRoot& root, VertexId tip,
                                  const std::vector<std::uint8_t>& foreign) {
-    std::vector<VesselTube> tubes = root.parents;
+    std::vector<Tube> tubes = root.parents;
     tubes.insert(tubes.end(), root.others.begin(), root.others.end());
     std::vector<double> heights;
     for (const Vec3& x : surface.points()) heights.push_back(relative_height(tubes, x));
@@ -123,7 +124,7 @@ std::optional<Plane> first_guess(const Surface& surface, const BranchRoot& root,
 }
 
 /// Mean over the parent's tubes, at the place nearest to the neck [mm].
-double parent_diameter(const std::vector<VesselTube>& parents, const Vec3& neck) {
+double parent_diameter(const std::vector<Tube>& parents, const Vec3& neck) {
     double sum = 0.0;
     for (const auto& tube : parents) sum += 2.0 * tube.radius(tube.coordinates(neck).along);
     return sum / static_cast<double>(parents.size());

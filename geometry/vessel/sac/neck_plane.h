@@ -20,7 +20,7 @@ struct SacNeck {
 /// Proposes the plane of a sac's neck.
 ///
 /// The parent vessel's tube is continued through the sac as if that had never been there
-/// (vessel_tube.h); where the wall around the dome stands out of it is the first guess. From there,
+/// (branch_root.h); where the wall around the dome stands out of it is the first guess. From there,
 /// the plane is moved and tilted until the square of its outline's length is least in comparison
 /// with the area of the wall that it cuts off, among all planes that separate the dome from the
 /// vessel's ends by one closed curve. A plane nearer to the dome loses more wall than outline;

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "geometry/vessel/centerlines/flight_path.h"
+#include "geometry/vessel/tree/flight_path.h"
 #include "gpu/render/view_camera.h"
 #include "workbench/window/core/panel_context.h"
 #include "workbench/window/drawing/view_strips.h"

@@ -1,4 +1,4 @@
-#include "geometry/vessel/narrowing/wall_rings.h"
+#include "geometry/vessel/tree/wall_rings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +7,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "geometry/kernel/cross_section.h"
 #include "geometry/kernel/statistics.h"
 #include "geometry/kernel/surface_distance.h"
 #include "geometry/vessel/centerlines/branch_queries.h"
@@ -20,12 +21,6 @@ constexpr double kSpacing = 0.2;   ///< of rings, in median radii of the branch
 constexpr double kFarthest = 4.0;  ///< what is farther from the axis is no wall [radii]
 constexpr double kBulge = 1.8;     ///< a wall so many times farther than the median is a bulge
 constexpr double kAtTip = 1.0;     ///< stretch at a tip that is left out [tip radii]
-
-Vec3 across(const Vec3& tangent) {
-    Eigen::Index smallest = 0;
-    tangent.cwiseAbs().minCoeff(&smallest);
-    return tangent.cross(Vec3::Unit(smallest)).normalized();
-}
 
 /// Arc length at one end of the branch that is not a vessel by itself [mm].
 double left_out(const CenterlineGraph& graph, std::size_t branch, std::size_t node) {
@@ -78,7 +73,7 @@ std::vector<WallRing> wall_rings(const Surface& surface, const CenterlineGraph& 
         ring.along = from + kSpacing * radius * static_cast<double>(i);
         ring.centre = point_at(line, ring.along);
         ring.tangent = tangent_at(line, ring.along, radius);
-        ring.first = across(ring.tangent);
+        ring.first = plane_axes(ring.tangent).first;
         measure(ring, surface, wall, reach);
     });
     return rings;

@@ -5,19 +5,16 @@
 
 #include "geometry/kernel/measure.h"
 #include "geometry/vessel/centerlines/centerline_graph.h"
+#include "geometry/vessel/tree/tube.h"
 
 namespace vesselbench {
 
 /// A way through the vessels along their centerlines, from one end to another.
 struct FlightPath {
     std::string name;  ///< of its end: the opening's, else "Vessel end, 3.2 mm" (its diameter)
-    Positions points;  ///< [mm], no two neighbours equal
-    std::vector<double> radii;      ///< [mm] of the vessel at each point
-    std::vector<double> abscissas;  ///< [mm] from the start to each point
-    std::vector<Vec3> ups;          ///< unit, for a camera at each point; they turn no more than
-                                    ///< the path does
+    Tube tube;         ///< its first directions point up
 
-    [[nodiscard]] double length() const { return abscissas.empty() ? 0.0 : abscissas.back(); }
+    [[nodiscard]] double length() const { return tube.length(); }
 };
 
 /// A camera's place on a path.
