@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include <dlfcn.h>
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
@@ -12,6 +13,12 @@
 namespace vesselbench {
 
 namespace {
+
+/// epoxy ends the program at its first call if a machine has no EGL at all.
+void require_egl() {
+    static const bool there = dlopen("libEGL.so.1", RTLD_LAZY | RTLD_LOCAL) != nullptr;
+    if (!there) throw GpuUnavailable("there is no EGL (Debian: libegl1, libgl1-mesa-dri)");
+}
 
 /// Real devices before Mesa's surfaceless platform, which may render on the CPU.
 std::vector<EGLDisplay> displays() {
@@ -167,7 +174,9 @@ struct OffscreenContext::Impl {
     }
 };
 
-OffscreenContext::OffscreenContext(Sharing sharing, bool debug) : impl_(std::make_unique<Impl>()) {
+OffscreenContext::OffscreenContext(Sharing sharing, bool debug) {
+    require_egl();
+    impl_ = std::make_unique<Impl>();
     if (sharing == Sharing::WithCurrent)
         impl_->share_with_current(debug);
     else
