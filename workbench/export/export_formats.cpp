@@ -18,7 +18,7 @@ namespace vesselbench {
 
 namespace {
 
-constexpr double kShareOfLines = 0.3;  ///< of a case's progress; writing has the rest
+constexpr double kShareOfLines = 0.3;  ///< of a case's progress, if it needs centerlines
 
 const VolumeMesh& volume_mesh_of(const Scene& scene) {
     if (!scene.volume_mesh)
@@ -100,9 +100,11 @@ std::vector<ExportFormat> joined_rows() {
             {row, [write = row.write](const Scene& scene, const std::string& path,
                                       const ExportOptions& options, const Progress& progress) {
                  const VolumeMesh& mesh = volume_mesh_of(scene);
+                 const double lines =
+                     options.flow.outlets == OutletFlow::Bifurcations ? kShareOfLines : 0.0;
                  const CfdParameters flow = with_outlet_shares(options.flow, boundary_surface(mesh),
-                                                               progress.part(0.0, kShareOfLines));
-                 write(path, mesh, flow, progress.part(kShareOfLines, 1.0), options.provenance);
+                                                               progress.part(0.0, lines));
+                 write(path, mesh, flow, progress.part(lines, 1.0), options.provenance);
                  write_flow_record(path, mesh, flow,
                                    {.provenance = options.provenance,
                                     .ends = options.ends,

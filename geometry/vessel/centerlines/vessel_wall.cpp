@@ -163,7 +163,7 @@ VesselWall vessel_wall_of(const Surface& surface, const Progress& progress) {
     if (surface.empty()) throw InvalidInput("the surface is empty");
     VesselWall wall;
     wall.points = surface.points();
-    require_finite(wall.points);
+    require_near(wall.points);
     for (const auto& loop : surface.topology->boundary_loops()) close_loop(loop, wall);
     collect_patches(surface, wall);
     measure(wall);

@@ -25,7 +25,7 @@ constexpr double kMostLost = 0.05;
 
 void check_input(const Surface& surface) {
     if (surface.empty()) throw InvalidInput("the surface has no triangles");
-    require_finite(surface.points());
+    require_near(surface.points());
 }
 
 /// Manifold, one component, stray holes closed.
