@@ -38,7 +38,8 @@ std::vector<Parameter> flow_parameters() {
          .help = "of outlets=bifurcations: the vessels behind a bifurcation share by this power "
                  "of their diameters; 3: Murray",
          .minimum = 0.0,
-         .maximum = 6.0},
+         .maximum = 6.0,
+         .only_with = Condition{"outlets", {"bifurcations"}}},
         {.name = "profile",
          .type = Choice,
          .default_value = "parabolic",
