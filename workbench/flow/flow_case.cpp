@@ -50,9 +50,15 @@ std::map<double, fs::path> times_in(const fs::path& folder) {
     return times;
 }
 
+/// A torn file stops the solver and what joins its parts, even of a field that follows from others.
 bool is_whole_time(const fs::path& time) {
-    return std::ranges::all_of(kSolved,
-                               [&](const char* field) { return is_whole_file(time / field); });
+    if (!std::ranges::all_of(kSolved,
+                             [&](const char* field) { return is_whole_file(time / field); }))
+        return false;
+    const fs::directory_iterator entries(time);
+    return std::all_of(begin(entries), end(entries), [](const fs::directory_entry& entry) {
+        return !entry.is_regular_file() || is_whole_file(entry.path());
+    });
 }
 
 }  // namespace
