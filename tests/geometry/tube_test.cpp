@@ -137,3 +137,21 @@ SCENARIO("A bump does not draw the tube towards it", "[geometry][tube]") {
     CHECK(robust.deviation < 0.025);
     CHECK(largest_error(fitted(wall, {.rounds = 1})) > 0.04);
 }
+
+SCENARIO("A tube is fitted to two rings of a coarse wall", "[geometry][tube]") {
+    std::vector<TubeSample> wall;
+    for (int i = 0; i < 60; ++i) {
+        const double angle = i * std::numbers::pi / 15.0;
+        wall.push_back({.along = i < 30 ? -1.0 : 1.0,
+                        .angle = angle,
+                        .distance = i < 30 ? 1.1 : 0.9,
+                        .out = {std::cos(angle), std::sin(angle)}});
+    }
+    const Fit fit = fitted(wall, {.least = 0.004, .ridge = 1e-10});
+    REQUIRE(fit.determined);
+    CHECK(fit.rest.cwiseAbs().maxCoeff() < 1e-6);
+    THEN("the smallest tube through them is taken") {
+        CHECK(fit.unknowns[Fit::kRadiusAt + 1] == Approx(-0.1));
+        CHECK(fit.unknowns[Fit::kRadiusAt] == Approx(fit.unknowns[Fit::kRadiusAt + 2]));
+    }
+}

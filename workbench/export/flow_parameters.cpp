@@ -7,8 +7,11 @@
 
 namespace vesselbench {
 
-std::vector<Parameter> flow_parameters() {
-    using enum ParameterType;
+namespace {
+
+using enum ParameterType;
+
+std::vector<Parameter> boundary_parameters() {
     const CfdParameters d;
     return {
         {.name = "flow",
@@ -45,44 +48,61 @@ std::vector<Parameter> flow_parameters() {
          .default_value = "parabolic",
          .help = "velocity profile at the inlet: parabolic, as in a long straight vessel with "
                  "the inlet's shape, or plug, the same everywhere",
-         .choices = {"parabolic", "plug"}},
-        {.name = "density",
-         .unit = "kg/m^3",
-         .default_value = d.density,
-         .help = "of blood",
-         .minimum = 0.0,
-         .above_minimum = true},
-        {.name = "viscosity",
-         .unit = "Pa s",
-         .default_value = d.viscosity,
-         .help = "dynamic viscosity of Newtonian blood, the same for all shear rates",
-         .minimum = 0.0,
-         .above_minimum = true},
-        {.name = "viscosity_model",
-         .type = Choice,
-         .default_value = "newtonian",
-         .help = "newtonian: viscosity; carreau: falls from 0.056 to 0.00345 Pa s with the "
-                 "shear rate (Cho, Kensey 1991)",
-         .choices = {"newtonian", "carreau"}},
-        {.name = "iterations",
-         .type = Integer,
-         .default_value = std::int64_t{d.iterations},
-         .help = "largest number of iterations of simpleFoam; it stops earlier at the residual",
-         .minimum = 1,
-         .maximum = 1000000},
-        {.name = "residual",
-         .unit = "-",
-         .default_value = d.residual,
-         .help = "initial residuals of pressure and velocity at which the run stops",
-         .minimum = 0.0,
-         .maximum = 1.0,
-         .above_minimum = true},
-        {.name = "processes",
-         .type = Integer,
-         .default_value = std::int64_t{d.processes},
-         .help = "number of parts made by decomposePar for mpirun",
-         .minimum = 1,
-         .maximum = 1024}};
+         .choices = {"parabolic", "plug"}}};
+}
+
+std::vector<Parameter> blood_parameters() {
+    const CfdParameters d;
+    return {{.name = "density",
+             .unit = "kg/m^3",
+             .default_value = d.density,
+             .help = "of blood",
+             .minimum = 0.0,
+             .above_minimum = true},
+            {.name = "viscosity",
+             .unit = "Pa s",
+             .default_value = d.viscosity,
+             .help = "dynamic viscosity of Newtonian blood, the same for all shear rates",
+             .minimum = 0.0,
+             .above_minimum = true},
+            {.name = "viscosity_model",
+             .type = Choice,
+             .default_value = "newtonian",
+             .help = "newtonian: viscosity; carreau: falls from 0.056 to 0.00345 Pa s with the "
+                     "shear rate (Cho, Kensey 1991)",
+             .choices = {"newtonian", "carreau"}}};
+}
+
+std::vector<Parameter> solver_parameters() {
+    const CfdParameters d;
+    return {{.name = "iterations",
+             .type = Integer,
+             .default_value = std::int64_t{d.iterations},
+             .help = "largest number of iterations of simpleFoam; it stops earlier at the residual",
+             .minimum = 1,
+             .maximum = 1000000},
+            {.name = "residual",
+             .unit = "-",
+             .default_value = d.residual,
+             .help = "initial residuals of pressure and velocity at which the run stops",
+             .minimum = 0.0,
+             .maximum = 1.0,
+             .above_minimum = true},
+            {.name = "processes",
+             .type = Integer,
+             .default_value = std::int64_t{d.processes},
+             .help = "number of parts made by decomposePar for mpirun",
+             .minimum = 1,
+             .maximum = 1024}};
+}
+
+}  // namespace
+
+std::vector<Parameter> flow_parameters() {
+    std::vector<Parameter> all = boundary_parameters();
+    for (const auto& more : {blood_parameters(), solver_parameters()})
+        all.insert(all.end(), more.begin(), more.end());
+    return all;
 }
 
 const Operation& flow_table() {

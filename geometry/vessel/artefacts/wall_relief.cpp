@@ -35,7 +35,7 @@ constexpr std::size_t kFewest = 4 * Fit::kUnknowns;  ///< vertices of a stretch
 constexpr int kSectors = 8;  ///< each has vertices, or the wall is not all around
 /// The deviation is kNormalScatter to three digits, with which the limits of findings were chosen;
 /// below `least` no vertex is an outlier [radii].
-constexpr TubeWeights kWeights = {.deviation = 1.483, .least = 0.004};
+constexpr TubeWeights kWeights = {.deviation = 1.483, .least = 0.004, .ridge = 1e-10};
 
 /// Vertices in the coordinates of a stretch, in radii.
 struct StretchWall {
@@ -107,8 +107,8 @@ private:
         const auto [vertices, samples] = wall_between(
             std::max(middle - half, wall_.from), std::min(middle + half, wall_.to), middle, radius);
         if (samples.size() < kFewest || !is_all_around(samples)) return;
-        const Fit fit(samples, 0.1, kWeights, 1e-9 * Fit::Normal::Identity(),
-                      Fit::Unknowns::Zero());
+        const Fit fit(samples, 0.1, kWeights, Fit::Normal::Zero(), Fit::Unknowns::Zero());
+        if (!fit.determined) return;
         for (std::size_t i = 0; i < samples.size(); ++i) {
             const double place = middle + samples[i].along * radius;
             if (place < own.first || place >= own.second) continue;

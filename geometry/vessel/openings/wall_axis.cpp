@@ -183,6 +183,7 @@ private:
                        .least = kLeastScatter,
                        .alike = kAlike},
                       usual, right);
+        if (!fit.determined) return false;
         scatter_ = fit.scatter;
         spread_ = fit.spread;
         const Fit::Unknowns& found = fit.unknowns;

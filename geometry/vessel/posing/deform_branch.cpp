@@ -54,7 +54,7 @@ Bends straightening(const Rod& rod, double share) {
     for (const RodElement& element : rod.elements) {
         Vec3 sum = Vec3::Zero();
         for (std::size_t i = element.first; i < element.last; ++i) {
-            const Vec3 before = rod.tangent(i), after = rod.tangent(i + 1);
+            const Vec3 &before = rod.tangent(i), &after = rod.tangent(i + 1);
             const Vec3 axis = before.cross(after);
             if (axis.norm() > 0.0)
                 sum -= std::atan2(axis.norm(), before.dot(after)) * axis.normalized();

@@ -21,11 +21,15 @@ struct TubeSample {
 
 /// How a wall's points are weighed against each other, and against what is known before.
 struct TubeWeights {
-    int rounds = 5;                     ///< the first one weighs all points alike
+    int rounds = 5;                     ///< at least 1; the first one weighs all points alike
     double deviation = kNormalScatter;  ///< of a median absolute deviation: its standard deviation
     double reach = kTukeyReach;         ///< a point farther off does not count [deviations]
     double least = 0.0;                 ///< smallest standard deviation [lengths]
     double alike = 1.0;  ///< times a point's variance, where neighbours' errors are alike [-]
+    /// Where nothing is known before: chooses the smallest of the unknowns that fit points which do
+    /// not determine them, such as two rings; of the largest diagonal element of their normal
+    /// matrix.
+    double ridge = 0.0;
 };
 
 /// The tube around a line that fits a stretch of wall: offsets of the line along two axes, each of
@@ -46,6 +50,9 @@ struct TubeFit {
     Eigen::VectorXd rest;    ///< what is left of each sample's distance
     double scatter = 0.0;    ///< weighted root mean square of the rest
     double deviation = 0.0;  ///< robust standard deviation of the rest
+    /// False if neither the points nor what is known determine the unknowns: the rest means
+    /// nothing.
+    bool determined = true;
 
     /// \param samples more than kUnknowns \param first a guess of their scatter, > 0
     /// \param known inverse variances of the unknowns before \param means of them, times these
@@ -65,8 +72,11 @@ struct TubeFit {
         for (int round = 0; round < how.rounds; ++round) {
             const double each = 1.0 / (how.alike * scatter * scatter);
             const Normal data = each * rows.transpose() * weights.asDiagonal() * rows;
+            const double ridge = how.ridge * data.diagonal().maxCoeff();
             const Unknowns right = each * rows.transpose() * weights.cwiseProduct(distances);
-            const Eigen::LLT<Normal> solver(data + known);
+            const Eigen::LLT<Normal> solver(data + known + ridge * Normal::Identity());
+            determined = solver.info() == Eigen::Success;
+            if (!determined) return;
             spread = solver.solve(Normal::Identity());
             unknowns = solver.solve(right + means);
             rest = distances - rows * unknowns;
@@ -91,8 +101,10 @@ struct TubeFit {
 
     [[nodiscard]] static Eigen::Matrix<double, 1, Shape> harmonics(double angle) {
         Eigen::Matrix<double, 1, Shape> row;
-        for (int k = 0; k < Shape; ++k)
-            row[k] = k % 2 == 0 ? std::cos((2 + k / 2) * angle) : std::sin((2 + k / 2) * angle);
+        for (int k = 0; k < Shape; ++k) {
+            const int order = 2 + k / 2;
+            row[k] = k % 2 == 0 ? std::cos(order * angle) : std::sin(order * angle);
+        }
         return row;
     }
 };
