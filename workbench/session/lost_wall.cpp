@@ -88,13 +88,13 @@ std::vector<LostVertex> lost_vertices(const StatedChange& stated, const Surface&
     return lost_from(distance_to(after), before, changed, stated.wall_lost);
 }
 
-/// Caps are no wall: the tip of an end that is closed by one lies on it.
+/// Caps are no wall: the tip of an end that is closed by one lies on it. 0 if there is no wall.
 double distance_to_wall(const Surface& surface, const Vec3& place) {
     const std::vector<std::uint8_t> wall = vertices_of_wall(surface);
     double least = std::numeric_limits<double>::infinity();
     for (VertexId v = 0; v < surface.vertex_count(); ++v)
         if (wall[v] != 0) least = std::min(least, (surface.points()[v] - place).squaredNorm());
-    return std::sqrt(least);
+    return std::isfinite(least) ? std::sqrt(least) : 0.0;
 }
 
 /// The lost vertex at an end's tip; none: nothing is lost there.
