@@ -100,6 +100,9 @@ inline constexpr double kLargestInletBend = 15.0;  // [deg]
 /// How flows of outlets are given: "by their areas"; empty for OutletFlow::ZeroPressure.
 [[nodiscard]] std::string outlets_text(const CfdParameters& parameters);
 
+/// The outlet through which the rest leaves where flows of outlets are given, in texts.
+[[nodiscard]] std::string rest_outlet_text();
+
 /// The flow that the parameters imply on this surface.
 /// \param bends by inlet, turn of the centerline within two diameters [deg]; missing: unknown
 /// \throw AlgorithmFailure if there is no inlet or no outlet; InvalidInput if a parameter is out of

@@ -318,8 +318,9 @@ std::string readme(const VolumeMesh& mesh, const CfdParameters& parameters,
                 : " Pa s; ")
         << flows << "\n"
         << (parameters.outlets == OutletFlow::ZeroPressure
-                ? "  no-slip walls; outlets at pressure 0, backflow enters at rest\n\n"
-                : "  no-slip walls; outlets with given flows, the largest at pressure 0\n\n")
+                ? std::string("  no-slip walls; outlets at pressure 0, backflow enters at rest\n\n")
+                : "  no-slip walls; outlets with given flows, " + rest_outlet_text() +
+                      " at pressure 0\n\n")
         << "  ./Allrun           checkMesh and simpleFoam on one core\n"
         << "  ./Allrun.parallel  decomposePar, mpirun -np " << parameters.processes
         << " simpleFoam -parallel, reconstructPar\n\n"

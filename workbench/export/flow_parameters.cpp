@@ -31,9 +31,12 @@ std::vector<Parameter> boundary_parameters() {
         {.name = "outlets",
          .type = Choice,
          .default_value = "zero-pressure",
-         .help = "what leaves through the outlets: what one pressure at all of them gives, or "
+         .help =
+             std::string(
+                 "what leaves through the outlets: what one pressure at all of them gives, or "
                  "shares by their areas, by the cubes of their diameters (Murray), or along the "
-                 "centerlines, bifurcation by bifurcation; the rest through the largest share",
+                 "centerlines, bifurcation by bifurcation; the rest through ") +
+             rest_outlet_text(),
          .choices = {"zero-pressure", "area", "cubes", "bifurcations"}},
         {.name = "outlet_exponent",
          .unit = "-",

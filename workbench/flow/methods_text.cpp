@@ -32,6 +32,14 @@ std::string fluid_text(const FlowRecord& record) {
            formatted(carreau::kTime, " lambda %g s,") + formatted(carreau::kExponent, " n %g [4])");
 }
 
+std::string outlets_text(const FlowRecord& record) {
+    if (!record.given_outflows)
+        return "; the pressure was 0 at all outlets, where backflow entered at rest. ";
+    return "; the outlets' flows were prescribed" +
+           (record.outflow_rule.empty() ? "" : " " + record.outflow_rule) + ", but at " +
+           rest_outlet_text() + ", whose pressure was 0. ";
+}
+
 std::string run_end_text(const FlowResults& results) {
     const SettlingLimits limits;
     if (results.settling.settled)
@@ -51,14 +59,6 @@ std::string run_end_text(const FlowResults& results) {
 }
 
 }  // namespace
-
-std::string outlets_text(const FlowRecord& record) {
-    if (!record.given_outflows)
-        return "; the pressure was 0 at all outlets, where backflow entered at rest. ";
-    return "; the outlets' flows were prescribed" +
-           (record.outflow_rule.empty() ? "" : " " + record.outflow_rule) +
-           ", but at the largest, whose pressure was 0. ";
-}
 
 std::string methods_text(const FlowResults& results) {
     const FlowRecord& record = results.flow.record;
