@@ -144,6 +144,10 @@ std::string outlets_text(const CfdParameters& parameters) {
     return "";
 }
 
+std::string solver_name(bool pulsatile) {
+    return pulsatile ? "pimpleFoam" : "simpleFoam";
+}
+
 std::string rest_outlet_text() {
     return "the one with the largest share";
 }
