@@ -74,7 +74,7 @@ struct CaseWriter {
     /// Mean velocity of each face of an inlet [m/s].
     [[nodiscard]] std::vector<Vec3> inflow(const FoamPatch& inlet) const;
     void put_inflow(TextBuffer& out, const FoamPatch& inlet) const;
-    void put_outflow(TextBuffer& out, double flow) const;
+    void put_outflow(TextBuffer& out, double mean) const;
     /// The samples of all periods: times [s], with the flow relative to its mean [-].
     [[nodiscard]] std::vector<std::pair<double, double>> samples() const;
     void write_boundary_data(const fs::path& folder, const Progress& progress) const;
@@ -140,15 +140,15 @@ void CaseWriter::put_inflow(TextBuffer& out, const FoamPatch& inlet) const {
     out << ";\n";
 }
 
-void CaseWriter::put_outflow(TextBuffer& out, double flow) const {
+void CaseWriter::put_outflow(TextBuffer& out, double mean) const {
     out << "        type            flowRateOutletVelocity;\n        volumetricFlowRate ";
     if (parameters.waveform) {
         out << "table\n        (\n";
         for (const auto& [time, factor] : samples())
-            out << "            (" << time << ' ' << flow * factor * 1e-6 << ")\n";
+            out << "            (" << time << ' ' << mean * factor * 1e-6 << ")\n";
         out << "        );\n";
     } else {
-        out << "constant " << flow * 1e-6 << ";\n";
+        out << "constant " << mean * 1e-6 << ";\n";
     }
     out << "        value           uniform (0 0 0);\n";
 }
@@ -301,16 +301,7 @@ snGradSchemes
 )";
 }
 
-/// Two outer corrections: a step may pass more than one cell.
-constexpr const char* kPimple = R"(PIMPLE
-{
-    nOuterCorrectors 2;
-    nCorrectors     2;
-    nNonOrthogonalCorrectors )";
-
-std::string solution(const CfdParameters& parameters, double largest_non_orthogonality) {
-    TextBuffer out;
-    out << foam_header("dictionary", "system", "fvSolution") << R"(solvers
+constexpr const char* kSolvers = R"(solvers
 {
     p
     {
@@ -342,9 +333,39 @@ std::string solution(const CfdParameters& parameters, double largest_non_orthogo
 }
 
 )";
+
+/// Steps of time that pass several cells need SIMPLEC's corrections: PISO's two grow without bound
+/// with the gradients of fvSchemes.
+constexpr const char* kPimple = R"(PIMPLE
+{
+    consistent      yes;
+    nOuterCorrectors 20;
+    nCorrectors     1;
+
+    residualControl
+    {
+        p { tolerance 1e-3; relTol 0; }
+        U { tolerance 1e-3; relTol 0; }
+    }
+
+    nNonOrthogonalCorrectors )";
+
+constexpr const char* kPimpleRelaxation = R"(
+relaxationFactors
+{
+    equations
+    {
+        "U.*"           0.9;
+    }
+}
+)";
+
+std::string solution(const CfdParameters& parameters, double largest_non_orthogonality) {
+    TextBuffer out;
+    out << foam_header("dictionary", "system", "fvSolution") << kSolvers;
     const int corrections = largest_non_orthogonality < kMildNonOrthogonality ? 0 : 1;
     if (parameters.waveform) {
-        out << kPimple << corrections << ";\n}\n";
+        out << kPimple << corrections << ";\n}\n" << kPimpleRelaxation;
         return out.text();
     }
     out << R"(SIMPLE

@@ -174,6 +174,26 @@ double largest_courant(const fs::path& log) {
     return largest;
 }
 
+/// Above it, steps of time may be too long for a pulsatile flow.
+constexpr double kSafeCourant = 5.0;
+
+/// Runs the solver. \throw AlgorithmFailure that names the remedy if its steps of time are too long
+void solve(const FlowCase& flow, int processes, FlowWatcher& watcher, const Progress& progress) {
+    try {
+        if (processes > 1) return run_divided(flow, processes, watcher, progress);
+        run_solver(
+            flow.folder, {solver_of(flow.record), "-case", flow.folder.string()},
+            solver_of(flow.record), [&] { watcher.look(); }, progress);
+    } catch (const AlgorithmFailure& error) {
+        const double courant = largest_courant(flow.folder / solver_log(flow.record));
+        if (!flow.record.waveform || courant < kSafeCourant) throw;
+        throw AlgorithmFailure("the flow diverges at a Courant number of" +
+                               formatted(courant, " %.2g") + ": export it with more than the " +
+                               std::to_string(flow.record.waveform->steps) +
+                               " openfoam.steps in a period (" + error.what() + ")");
+    }
+}
+
 /// True if the last iteration is written whole, and nothing is left to be done.
 bool is_finished(const FlowCase& flow, const FlowRun& run) {
     return run.converged && run.iterations > 0 &&
@@ -210,12 +230,7 @@ FlowRun run_flow(const FlowCase& flow, const FlowRunOptions& options,
     tell(counted(flow.record.cells, "cell") + ", " +
          counted(std::size_t(processes), "process", "processes"));
     FlowWatcher watcher(flow, options.limits, progress.part(kDivided, kJoined));
-    if (processes > 1)
-        run_divided(flow, processes, watcher, progress);
-    else
-        run_solver(
-            flow.folder, {solver_of(flow.record), "-case", flow.folder.string()},
-            solver_of(flow.record), [&] { watcher.look(); }, progress);
+    solve(flow, processes, watcher, progress);
     write_file(flow.folder / "case.foam", "");  // for ParaView
     run = flow_run_of(flow, options.limits);
     run.processes = processes;

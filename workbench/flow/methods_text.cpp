@@ -57,9 +57,9 @@ std::string pulse_text(const FlowResults& results) {
 std::string solver_text(const FlowResults& results) {
     const bool pulsatile = results.flow.record.waveform.has_value();
     return solver_name(pulsatile) + " of " + results.solver +
-           (pulsatile
-                ? " [1] (PIMPLE algorithm [2], schemes of second order in space, Euler's in time)"
-                : " [1] (SIMPLEC algorithm [2], second-order schemes)");
+           (pulsatile ? " [1] (PIMPLE algorithm with SIMPLEC's corrections [2], schemes of second "
+                        "order in space, Euler's in time)"
+                      : " [1] (SIMPLEC algorithm [2], second-order schemes)");
 }
 
 /// What the wall shear stress is of; its references follow the others.

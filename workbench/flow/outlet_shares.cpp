@@ -13,6 +13,7 @@
 #include "geometry/vessel/centerlines/branch_queries.h"
 #include "geometry/vessel/centerlines/centerlines.h"
 #include "geometry/vessel/ends/flow_tree.h"
+#include "workbench/case/measure_json.h"
 
 namespace vesselbench {
 
