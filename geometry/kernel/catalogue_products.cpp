@@ -152,7 +152,7 @@ constexpr CatalogueText kTexts[] = {
      "{inlet} is in a bend (the centerline turns by {turn_deg:%.0f} degrees within two diameters): "
      "the inflow profile is not that of a straight vessel; clip elsewhere or extrude the opening"},
     {"outlet-without-line",
-     "openfoam.outlets=bifurcations: no centerline leads from the inlet to {outlet}; give "
+     "openfoam.outlets=bifurcations: no centerline joins {opening} with the other openings; give "
      "openfoam.outlets=area, cubes or zero-pressure"},
 };
 

@@ -144,6 +144,14 @@ std::string outlets_text(const CfdParameters& parameters) {
     return "";
 }
 
+std::string solver_name(bool pulsatile) {
+    return pulsatile ? "pimpleFoam" : "simpleFoam";
+}
+
+std::string rest_outlet_text() {
+    return "the one with the largest share";
+}
+
 FlowSummary flow_summary(const Surface& surface, const CfdParameters& parameters,
                          const std::map<std::string, double>& bends) {
     require_positive(parameters.density, "density", "kg/m^3");

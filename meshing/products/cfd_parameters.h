@@ -7,6 +7,7 @@
 
 #include "geometry/kernel/diagnostic.h"
 #include "geometry/kernel/surface.h"
+#include "meshing/products/waveform.h"
 
 namespace vesselbench {
 
@@ -46,7 +47,7 @@ struct NamedFlow {
     double flow = 0.0;  ///< [cm^3/s], > 0
 };
 
-/// Flow of blood through a model with rigid walls: steady, laminar (thesis 5.5.1).
+/// Flow of blood through a model with rigid walls: laminar; steady (thesis 5.5.1), or pulsatile.
 struct CfdParameters {
     double density = 1000.0;  ///< [kg/m^3], > 0
     double viscosity = 4e-3;  ///< dynamic, of Newtonian blood [Pa s], > 0
@@ -62,6 +63,10 @@ struct CfdParameters {
     int iterations = 2000;                             ///< largest number of SIMPLE iterations
     double residual = 1e-5;  ///< initial residuals of p and U at which the run stops [-]
     int processes = 2;       ///< parts made by decomposePar
+    /// Of the flow through all inlets together; none: it is steady. Its mean is `flow`.
+    std::optional<Waveform> waveform = std::nullopt;
+    int periods = 2;   ///< of the waveform that are computed; the last one counts
+    int steps = 1000;  ///< of time in a period
 };
 
 /// One inlet under the given flow.
@@ -99,6 +104,12 @@ inline constexpr double kLargestInletBend = 15.0;  // [deg]
 
 /// How flows of outlets are given: "by their areas"; empty for OutletFlow::ZeroPressure.
 [[nodiscard]] std::string outlets_text(const CfdParameters& parameters);
+
+/// simpleFoam of a steady flow, pimpleFoam of a pulsatile one.
+[[nodiscard]] std::string solver_name(bool pulsatile);
+
+/// The outlet through which the rest leaves where flows of outlets are given, in texts.
+[[nodiscard]] std::string rest_outlet_text();
 
 /// The flow that the parameters imply on this surface.
 /// \param bends by inlet, turn of the centerline within two diameters [deg]; missing: unknown

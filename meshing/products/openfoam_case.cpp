@@ -10,6 +10,7 @@
 #include "geometry/formats/comment_line.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/measure.h"
+#include "geometry/kernel/pending_files.h"
 #include "geometry/kernel/plain_name.h"
 #include "geometry/kernel/whole_file.h"
 #include "geometry/kernel/wording.h"
@@ -56,8 +57,13 @@ struct CaseWriter {
 
     [[nodiscard]] std::string flows() const {  // for comments
         std::vector<std::string> texts;
+        const std::string unit = parameters.waveform ? " cm^3/s in the mean" : " cm^3/s";
         for (const InletFlow& inlet : flow.inlets)
-            texts.push_back(inlet.name + " carries " + formatted(inlet.flow, "%g") + " cm^3/s");
+            texts.push_back(inlet.name + " carries " + formatted(inlet.flow, "%g") + unit);
+        if (parameters.waveform)
+            texts.push_back((parameters.waveform->synthetic ? "synthetic waveform of"
+                                                            : "waveform of a file of") +
+                            formatted(parameters.waveform->period(), " %g s"));
         return joined(texts, ", ");
     }
 
@@ -65,7 +71,13 @@ struct CaseWriter {
         return patch.kind == PatchKind::Wall || patch.kind == PatchKind::Cut;
     }
 
+    /// Mean velocity of each face of an inlet [m/s].
+    [[nodiscard]] std::vector<Vec3> inflow(const FoamPatch& inlet) const;
     void put_inflow(TextBuffer& out, const FoamPatch& inlet) const;
+    void put_outflow(TextBuffer& out, double mean) const;
+    /// The samples of all periods: times [s], with the flow relative to its mean [-].
+    [[nodiscard]] std::vector<std::pair<double, double>> samples() const;
+    void write_boundary_data(const fs::path& folder, const Progress& progress) const;
     [[nodiscard]] std::string velocity() const;
     [[nodiscard]] std::string pressure() const;
     [[nodiscard]] std::string transport() const;
@@ -94,7 +106,7 @@ std::vector<double> profile_of_faces(const Positions& points, std::span<const Me
 
 // Directed along the mean inward normal, with an exact mean velocity although a rim is never quite
 // flat.
-void CaseWriter::put_inflow(TextBuffer& out, const FoamPatch& inlet) const {
+std::vector<Vec3> CaseWriter::inflow(const FoamPatch& inlet) const {
     const Vec3 inward = -area_vector(inlet).normalized();
     const std::span<const MeshFace> rows = faces_of(inlet);
     std::vector<double> profile(rows.size(), 1.0);
@@ -104,13 +116,78 @@ void CaseWriter::put_inflow(TextBuffer& out, const FoamPatch& inlet) const {
     for (std::size_t f = 0; f < rows.size(); ++f)
         flux -= profile[f] * 0.5 * face_normal(mesh.points, rows[f].corners).dot(inward);
     const double scale = flow_through(inlet) / flux;  // [m/s]
-    out << "        type            fixedValue;\n        value           nonuniform List<vector>\n"
-        << rows.size() << "\n(\n";
-    for (const double u : profile) {
-        const Vec3 velocity = u * scale * inward;
-        out << '(' << velocity.x() << ' ' << velocity.y() << ' ' << velocity.z() << ")\n";
+    std::vector<Vec3> velocities;
+    for (const double u : profile) velocities.emplace_back(u * scale * inward);
+    return velocities;
+}
+
+void put_vectors(TextBuffer& out, const std::vector<Vec3>& vectors, double factor = 1.0) {
+    out << vectors.size() << "\n(\n";
+    for (const Vec3& v : vectors)
+        out << '(' << factor * v.x() << ' ' << factor * v.y() << ' ' << factor * v.z() << ")\n";
+    out << ")\n";
+}
+
+void CaseWriter::put_inflow(TextBuffer& out, const FoamPatch& inlet) const {
+    if (parameters.waveform)
+        out << "        type            timeVaryingMappedFixedValue;\n"
+               "        mapMethod       nearest;\n        setAverage      false;\n"
+               "        offset          (0 0 0);\n";
+    else
+        out << "        type            fixedValue;\n";
+    out << "        value           nonuniform List<vector>\n";
+    put_vectors(out, inflow(inlet), parameters.waveform ? samples().front().second : 1.0);
+    out << ";\n";
+}
+
+void CaseWriter::put_outflow(TextBuffer& out, double mean) const {
+    out << "        type            flowRateOutletVelocity;\n        volumetricFlowRate ";
+    if (parameters.waveform) {
+        out << "table\n        (\n";
+        for (const auto& [time, factor] : samples())
+            out << "            (" << time << ' ' << mean * factor * 1e-6 << ")\n";
+        out << "        );\n";
+    } else {
+        out << "constant " << mean * 1e-6 << ";\n";
     }
-    out << ")\n;\n";
+    out << "        value           uniform (0 0 0);\n";
+}
+
+std::vector<std::pair<double, double>> CaseWriter::samples() const {
+    const Waveform& wave = *parameters.waveform;
+    const double mean = wave.mean();
+    std::vector<std::pair<double, double>> rows;
+    for (int period = 0; period < parameters.periods; ++period)
+        for (std::size_t i = period == 0 ? 0 : 1; i < wave.times.size(); ++i)
+            rows.emplace_back(period * wave.period() + wave.times[i], wave.flows[i] / mean);
+    return rows;
+}
+
+// The solver is linear between the times of these files.
+void CaseWriter::write_boundary_data(const fs::path& folder, const Progress& progress) const {
+    for (const FoamPatch& patch : patches) {
+        if (patch.kind != PatchKind::Inlet) continue;
+        std::vector<Vec3> centres;
+        for (const MeshFace& face : faces_of(patch)) {
+            Vec3 sum = Vec3::Zero();
+            for (const VertexId corner : face.corners) sum += mesh.points[corner];
+            centres.emplace_back(1e-3 * sum / static_cast<double>(face.corners.size()));
+        }
+        const fs::path data = folder / "constant/boundaryData" / patch.name;
+        make_folder(data);
+        TextBuffer points;
+        put_vectors(points, centres);
+        write_file(data / "points", points.text());
+        const std::vector<Vec3> velocities = inflow(patch);
+        for (const auto& [time, factor] : samples()) {
+            progress.check_cancelled();
+            const fs::path sample = data / formatted(time, "%.9g");
+            make_folder(sample);
+            TextBuffer values;
+            put_vectors(values, velocities, factor);
+            write_file(sample / "U", values.text());
+        }
+    }
 }
 
 std::string CaseWriter::velocity() const {
@@ -127,9 +204,7 @@ std::string CaseWriter::velocity() const {
         else if (patch.kind == PatchKind::Inlet)
             put_inflow(out, patch);
         else if (const auto given = given_outflow(patch))
-            out << "        type            flowRateOutletVelocity;\n        "
-                   "volumetricFlowRate constant "
-                << *given * 1e-6 << ";\n        value           uniform (0 0 0);\n";
+            put_outflow(out, *given);
         else
             out << "        type            inletOutlet;\n        inletValue      uniform (0 0 "
                    "0);\n        value           uniform (0 0 0);\n";
@@ -185,12 +260,11 @@ std::string turbulence() {
 // per iteration suffices.
 constexpr double kMildNonOrthogonality = 65.0;
 
-std::string schemes(double largest_non_orthogonality) {
+std::string schemes(bool pulsatile, double largest_non_orthogonality) {
     const std::string correction =
         largest_non_orthogonality < kMildNonOrthogonality ? "corrected" : "limited corrected 0.5";
-    return foam_header("dictionary", "system", "fvSchemes") + R"(ddtSchemes
-{
-    default         steadyState;
+    return foam_header("dictionary", "system", "fvSchemes") +
+           "ddtSchemes\n{\n    default         " + (pulsatile ? "Euler" : "steadyState") + R"(;
 }
 
 gradSchemes
@@ -203,7 +277,8 @@ gradSchemes
 divSchemes
 {
     default         none;
-    div(phi,U)      bounded Gauss linearUpwind grad(U);
+    div(phi,U)      )" +
+           (pulsatile ? "" : "bounded ") + R"(Gauss linearUpwind grad(U);
     div((nuEff*dev2(T(grad(U))))) Gauss linear;
 }
 
@@ -226,9 +301,7 @@ snGradSchemes
 )";
 }
 
-std::string solution(const CfdParameters& parameters, double largest_non_orthogonality) {
-    TextBuffer out;
-    out << foam_header("dictionary", "system", "fvSolution") << R"(solvers
+constexpr const char* kSolvers = R"(solvers
 {
     p
     {
@@ -245,13 +318,61 @@ std::string solution(const CfdParameters& parameters, double largest_non_orthogo
         tolerance       1e-9;
         relTol          0.1;
     }
+
+    pFinal  // of a pulsatile flow
+    {
+        $p;
+        relTol          0.005;
+    }
+
+    UFinal
+    {
+        $U;
+        relTol          0;
+    }
 }
 
-SIMPLE
+)";
+
+/// Steps of time that pass several cells need SIMPLEC's corrections: PISO's two grow without bound
+/// with the gradients of fvSchemes.
+constexpr const char* kPimple = R"(PIMPLE
+{
+    consistent      yes;
+    nOuterCorrectors 20;
+    nCorrectors     1;
+
+    residualControl
+    {
+        p { tolerance 1e-3; relTol 0; }
+        U { tolerance 1e-3; relTol 0; }
+    }
+
+    nNonOrthogonalCorrectors )";
+
+constexpr const char* kPimpleRelaxation = R"(
+relaxationFactors
+{
+    equations
+    {
+        "U.*"           0.9;
+    }
+}
+)";
+
+std::string solution(const CfdParameters& parameters, double largest_non_orthogonality) {
+    TextBuffer out;
+    out << foam_header("dictionary", "system", "fvSolution") << kSolvers;
+    const int corrections = largest_non_orthogonality < kMildNonOrthogonality ? 0 : 1;
+    if (parameters.waveform) {
+        out << kPimple << corrections << ";\n}\n" << kPimpleRelaxation;
+        return out.text();
+    }
+    out << R"(SIMPLE
 {
     consistent      yes;
     nNonOrthogonalCorrectors )"
-        << (largest_non_orthogonality < kMildNonOrthogonality ? 0 : 1) << R"(;
+        << corrections << R"(;
 
     residualControl
     {
@@ -271,7 +392,8 @@ relaxationFactors
     return out.text();
 }
 
-std::string script(bool parallel) {
+std::string script(bool pulsatile, bool parallel) {
+    const std::string solver = solver_name(pulsatile);
     const std::string head = R"sh(#!/bin/sh
 # Runs the case; results lie in the last time folder (metres, kinematic pressure) and in postProcessing/.
 cd "$(dirname "$0")" || exit 1
@@ -288,19 +410,25 @@ run() {  # run NAME COMMAND...: its output goes to log.NAME
     exit 1
 }
 )sh";
-    const std::string end = R"sh(if converged=$(grep -i "solution converged" log.simpleFoam); then
+    const std::string verdict =
+        R"sh(if converged=$(grep -i "solution converged" log.simpleFoam); then
     echo "$converged"
 else
     echo "The flow has not converged: see log.simpleFoam; controlDict limits the iterations"
 fi
-echo "Result: folder $(ls -d [1-9]* | sort -n | tail -n 1); ParaView opens case.foam"
+)sh";
+    const std::string end =
+        (pulsatile ? "" : verdict) +
+        R"sh(echo "Result: folder $(ls -d [0-9]* | sort -n | tail -n 1); ParaView opens case.foam"
 touch case.foam
 )sh";
-    if (!parallel) return head + "run checkMesh checkMesh\nrun simpleFoam simpleFoam\n" + end;
+    if (!parallel)
+        return head + "run checkMesh checkMesh\nrun " + solver + " " + solver + "\n" + end;
     return head +
            R"sh(parts=$(sed -n 's/^numberOfSubdomains *\([0-9]*\);.*/\1/p' system/decomposeParDict)
 run decomposePar decomposePar -force
-run simpleFoam mpirun -np "$parts" $MPIRUN_OPTIONS simpleFoam -parallel
+run )sh" + solver +
+           R"sh( mpirun -np "$parts" $MPIRUN_OPTIONS )sh" + solver + R"sh( -parallel
 run reconstructPar reconstructPar -latestTime
 )sh" + end;
 }
@@ -308,7 +436,9 @@ run reconstructPar reconstructPar -latestTime
 std::string readme(const VolumeMesh& mesh, const CfdParameters& parameters,
                    const std::string& flows) {
     TextBuffer out;
-    out << "OpenFOAM case of steady laminar blood flow, written by vesselbench.\n\n"
+    const std::string solver = solver_name(parameters.waveform.has_value());
+    out << "OpenFOAM case of " << (parameters.waveform ? "pulsatile" : "steady")
+        << " laminar blood flow, written by vesselbench.\n\n"
         << "  " << mesh.tetrahedra.size() << " tetrahedra";
     if (!mesh.prisms.empty()) out << " and " << mesh.prisms.size() << " prisms along the wall";
     out << "; lengths in metres; density " << parameters.density << " kg/m^3, viscosity "
@@ -318,11 +448,12 @@ std::string readme(const VolumeMesh& mesh, const CfdParameters& parameters,
                 : " Pa s; ")
         << flows << "\n"
         << (parameters.outlets == OutletFlow::ZeroPressure
-                ? "  no-slip walls; outlets at pressure 0, backflow enters at rest\n\n"
-                : "  no-slip walls; outlets with given flows, the largest at pressure 0\n\n")
-        << "  ./Allrun           checkMesh and simpleFoam on one core\n"
-        << "  ./Allrun.parallel  decomposePar, mpirun -np " << parameters.processes
-        << " simpleFoam -parallel, reconstructPar\n\n"
+                ? std::string("  no-slip walls; outlets at pressure 0, backflow enters at rest\n\n")
+                : "  no-slip walls; outlets with given flows, " + rest_outlet_text() +
+                      " at pressure 0\n\n")
+        << "  ./Allrun           checkMesh and " << solver << " on one core\n"
+        << "  ./Allrun.parallel  decomposePar, mpirun -np " << parameters.processes << " " << solver
+        << " -parallel, reconstructPar\n\n"
         << "Debian's OpenFOAM needs WM_PROJECT_DIR=/usr/share/openfoam; both scripts set it when "
            "it is missing. As root, set\n"
         << "MPIRUN_OPTIONS=\"--allow-run-as-root --oversubscribe\" before the second. Pressures "
@@ -345,8 +476,8 @@ void make_folders(const fs::path& folder) {
     }
 }
 
-void write_script(const fs::path& path, bool parallel) {
-    write_file(path, script(parallel));
+void write_script(const fs::path& path, const std::string& text) {
+    write_file(path, text);
     std::error_code ignored;
     fs::permissions(path, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
                     fs::perm_options::add, ignored);
@@ -386,12 +517,16 @@ void write_openfoam_case(const fs::path& folder, const VolumeMesh& mesh,
     progress.check_cancelled();
     const double angle = largest_non_orthogonality(mesh, writer.faces);
     progress.check_cancelled();
-    write_file(folder / "system/fvSchemes", schemes(angle));
+    const bool pulsatile = parameters.waveform.has_value();
+    std::error_code ignored;
+    fs::remove_all(folder / "constant/boundaryData", ignored);
+    if (pulsatile) writer.write_boundary_data(folder, progress);
+    write_file(folder / "system/fvSchemes", schemes(pulsatile, angle));
     write_file(folder / "system/fvSolution", solution(parameters, angle));
     write_file(folder / "system/decomposeParDict",
                decomposition_dictionary(bounds(mesh.points), parameters.processes));
-    write_script(folder / "Allrun", false);
-    write_script(folder / "Allrun.parallel", true);
+    write_script(folder / "Allrun", script(pulsatile, false));
+    write_script(folder / "Allrun.parallel", script(pulsatile, true));
     const std::string line = provenance.empty() ? "" : comment_line(provenance) + "\n";
     write_file(folder / "README", line + readme(mesh, parameters, writer.flows()));
     // Last: it makes the folder a case.

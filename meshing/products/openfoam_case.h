@@ -9,7 +9,9 @@
 
 namespace vesselbench {
 
-/// Writes a complete OpenFOAM case (v1912 and similar) for simpleFoam: constant/polyMesh in metres,
+/// Writes a complete OpenFOAM case (v1912 and similar) for simpleFoam, or for pimpleFoam if the
+/// parameters have a waveform: then constant/boundaryData has the velocities at the inlets over all
+/// periods, and given flows of outlets follow it. It is: constant/polyMesh in metres,
 /// patches `wall` (type wall) and the openings (type patch) by their names, fields 0/U and 0/p,
 /// laminar Newtonian blood, second-order schemes, residual control, decomposeParDict, and the
 /// scripts Allrun and Allrun.parallel. Walls are no-slip; at the outlets p = 0 (kinematic) and

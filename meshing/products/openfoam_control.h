@@ -9,8 +9,8 @@
 
 namespace vesselbench {
 
-/// What simpleFoam writes in every iteration below postProcessing/: a folder for each of these
-/// names (with an opening's or the wall's name behind the first three).
+/// What the solver writes in every iteration, or step of time, below postProcessing/: a folder for
+/// each of these names (with an opening's or the wall's name behind the first three).
 namespace watched_tables {
 inline constexpr const char* kPressure = "pressure_";   ///< mean over an opening [m^2/s^2]
 inline constexpr const char* kFlow = "flow_";           ///< out through an opening [m^3/s]
@@ -18,12 +18,21 @@ inline constexpr const char* kWallShear = "shear_";     ///< mean magnitude over
 inline constexpr const char* kResiduals = "residuals";  ///< of every equation, at its begin [-]
 }  // namespace watched_tables
 
+/// Means over the last period of a pulsatile flow.
+namespace cycle_means {
+inline constexpr const char* kShear = "wallShearStressMean";               ///< vector [m^2/s^2]
+inline constexpr const char* kMagnitude = "wallShearStressMagnitudeMean";  ///< [m^2/s^2]
+inline constexpr const char* kPressure = "pMean";                          ///< [m^2/s^2]
+}  // namespace cycle_means
+
 /// A file of this name in the case's folder ends the run: the next iteration is the last, and is
 /// written.
 inline constexpr const char* kStopFile = "stop";
 
 /// system/controlDict: starts at the last time folder, writes one at least every 50 iterations
-/// and at the last one (so that a killed run goes on), and the tables above.
+/// and at the last one (so that a killed run goes on), and the tables above. Of a pulsatile flow,
+/// one at least every 20th of a period, with the means over the last period of the fields of
+/// cycle_means.
 [[nodiscard]] std::string control_dictionary(std::span<const FoamPatch> patches,
                                              const CfdParameters& parameters);
 

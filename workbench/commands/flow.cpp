@@ -41,8 +41,10 @@ void keep_results(const FlowResults& results, const fs::path& folder, const Prog
 void tell_flow_run(const FlowRun& run) {
     if (run.seconds <= 0.0) return;
     remark((run.converged ? "solved in " : "ended after ") +
-           counted(static_cast<std::size_t>(run.iterations), "iteration") + ", " +
-           duration_text(run.seconds));
+           counted(static_cast<std::size_t>(run.iterations),
+                   run.courant > 0.0 ? "step" : "iteration") +
+           ", " + duration_text(run.seconds) +
+           (run.courant > 0.0 ? formatted(run.courant, ", largest Courant number %.2g") : ""));
 }
 
 void print_results(const FlowResults& results, bool json) {
@@ -66,7 +68,8 @@ FlowResults solved_flow(const FlowArguments& arguments, const Progress& progress
 }
 
 void print_flow_table(const FlowResults& results) {
-    std::vector<std::vector<std::string>> rows = {{"steady flow", "", "", ""}};
+    std::vector<std::vector<std::string>> rows = {
+        {results.cycle ? "pulsatile flow, last period" : "steady flow", "", "", ""}};
     for (const FlowFigure& figure : flow_figures(results))
         rows.push_back(
             {figure.name, formatted(figure.value, "%.4g"), figure.unit, figure.definition});

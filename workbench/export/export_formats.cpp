@@ -102,8 +102,8 @@ std::vector<ExportFormat> joined_rows() {
                  const VolumeMesh& mesh = volume_mesh_of(scene);
                  const double lines =
                      options.flow.outlets == OutletFlow::Bifurcations ? kShareOfLines : 0.0;
-                 const CfdParameters flow = with_outlet_shares(options.flow, boundary_surface(mesh),
-                                                               progress.part(0.0, lines));
+                 const CfdParameters flow =
+                     with_outlet_shares(options.flow, mesh, progress.part(0.0, lines));
                  write(path, mesh, flow, progress.part(lines, 1.0), options.provenance);
                  write_flow_record(path, mesh, flow,
                                    {.provenance = options.provenance,

@@ -1,8 +1,12 @@
 #include "workbench/export/flow_parameters.h"
 
+#include <algorithm>
 #include <sstream>
 
+#include "geometry/kernel/bare_name.h"
 #include "geometry/kernel/errors.h"
+#include "geometry/kernel/whole_file.h"
+#include "geometry/kernel/wording.h"
 #include "workbench/case/checked_value.h"
 
 namespace vesselbench {
@@ -31,9 +35,12 @@ std::vector<Parameter> boundary_parameters() {
         {.name = "outlets",
          .type = Choice,
          .default_value = "zero-pressure",
-         .help = "what leaves through the outlets: what one pressure at all of them gives, or "
+         .help =
+             std::string(
+                 "what leaves through the outlets: what one pressure at all of them gives, or "
                  "shares by their areas, by the cubes of their diameters (Murray), or along the "
-                 "centerlines, bifurcation by bifurcation; the rest through the largest share",
+                 "centerlines, bifurcation by bifurcation; the rest through ") +
+             rest_outlet_text(),
          .choices = {"zero-pressure", "area", "cubes", "bifurcations"}},
         {.name = "outlet_exponent",
          .unit = "-",
@@ -96,11 +103,32 @@ std::vector<Parameter> solver_parameters() {
              .maximum = 1024}};
 }
 
+std::vector<Parameter> pulse_parameters() {
+    const CfdParameters d;
+    return {{.name = "waveform",
+             .type = Text,
+             .help = "makes the flow pulsatile: a file with rows of a time [s] and a flow [cm^3/s] "
+                     "over one period, in place of flow, or synthetic, a curve that is of no "
+                     "measurement, with flow as its mean"},
+            {.name = "periods",
+             .type = Integer,
+             .default_value = std::int64_t{d.periods},
+             .help = "of a waveform: number of periods that are computed; the last one counts",
+             .minimum = 1,
+             .maximum = 100},
+            {.name = "steps",
+             .type = Integer,
+             .default_value = std::int64_t{d.steps},
+             .help = "of a waveform: steps of time in a period",
+             .minimum = 10,
+             .maximum = 100000}};
+}
+
 }  // namespace
 
 std::vector<Parameter> flow_parameters() {
     std::vector<Parameter> all = boundary_parameters();
-    for (const auto& more : {blood_parameters(), solver_parameters()})
+    for (const auto& more : {blood_parameters(), solver_parameters(), pulse_parameters()})
         all.insert(all.end(), more.begin(), more.end());
     return all;
 }
@@ -126,6 +154,43 @@ std::vector<NamedFlow> flows_in(const std::string& text) {
                          std::get<double>(checked_value(flow, entry.substr(colon + 1)))});
     }
     return flows;
+}
+
+constexpr const char* kSynthetic = "synthetic";
+
+/// "0:1.2;0.5:2;1:1.2": the times [s] and flows [cm^3/s] themselves, as kept_waveform() makes it.
+bool has_numbers(const std::string& text) {
+    return text.find(';') != std::string::npos && text.find(':') != std::string::npos;
+}
+
+Waveform waveform_in(std::string text, double mean) {
+    if (text == kSynthetic) return synthetic_waveform(mean);
+    if (!has_numbers(text)) {
+        const std::string name = bare_name(text);
+        try {
+            return waveform_from_text(file_content(text), name);
+        } catch (const IoError&) {
+            throw UsageError("openfoam.waveform: '" + name +
+                             "' cannot be read; give a file, or synthetic");
+        }
+    }
+    std::ranges::replace(text, ':', ' ');
+    std::ranges::replace(text, ';', '\n');
+    return waveform_from_text(text, "the project's");
+}
+
+/// The waveform, with its mean as the flow.
+void take_waveform(CfdParameters& flow, const std::string& text) {
+    const bool measured = text != kSynthetic;
+    if (measured && !flow.inlet_flows.empty())
+        throw UsageError(
+            "openfoam.waveform: its file has the flow of all inlets together; leave inlet_flows "
+            "out, or give waveform=synthetic");
+    double mean = flow.flow;
+    if (!flow.inlet_flows.empty()) mean = 0.0;
+    for (const NamedFlow& inlet : flow.inlet_flows) mean += inlet.flow;
+    flow.waveform = waveform_in(text, mean);
+    if (measured) flow.flow = flow.waveform->mean();
 }
 
 OutletFlow outlet_flow_in(const std::string& text) {
@@ -162,7 +227,25 @@ CfdParameters flow_from(const Arguments& arguments) {
         flow.iterations = static_cast<int>(arguments.integer("iterations"));
     if (arguments.has("processes"))
         flow.processes = static_cast<int>(arguments.integer("processes"));
+    if (arguments.has("periods")) flow.periods = static_cast<int>(arguments.integer("periods"));
+    if (arguments.has("steps")) flow.steps = static_cast<int>(arguments.integer("steps"));
+    if (arguments.has("waveform") && !arguments.text("waveform").empty())
+        take_waveform(flow, arguments.text("waveform"));
     return flow;
+}
+
+bool is_synthetic(const std::string& waveform) {
+    return waveform == kSynthetic;
+}
+
+std::string kept_waveform(const std::string& text) {
+    if (text.empty() || text == kSynthetic || has_numbers(text)) return text;
+    const Waveform wave = waveform_in(text, 1.0);
+    std::string kept;
+    for (std::size_t i = 0; i < wave.times.size(); ++i)
+        kept += (i > 0 ? ";" : "") + formatted(wave.times[i], "%.9g:") +
+                formatted(wave.flows[i], "%.9g");
+    return kept;
 }
 
 }  // namespace vesselbench

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "meshing/products/cfd_parameters.h"
@@ -13,7 +14,15 @@ namespace vesselbench {
 /// They as a row like those of the operation table, "openfoam", to share its checks, texts, forms.
 [[nodiscard]] const Operation& flow_table();
 
+/// True for the waveform that is made and not read.
+[[nodiscard]] bool is_synthetic(const std::string& waveform);
+
+/// A waveform as a project keeps it: a file's numbers in place of its name, which may be gone
+/// later, and says where it was. \throw UsageError as flow_from()
+[[nodiscard]] std::string kept_waveform(const std::string& text);
+
 /// \param arguments checked against flow_parameters(); absent ones keep their default
+/// \throw UsageError if a text in them, or the file of a waveform, is not as it should be
 [[nodiscard]] CfdParameters flow_from(const Arguments& arguments);
 
 }  // namespace vesselbench

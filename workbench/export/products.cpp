@@ -40,9 +40,17 @@ const ExportFormat* format_of(const fs::path& file) {
     return row_that_writes(export_formats(), without_last_slash(file).string());
 }
 
+constexpr const char* kWaveform = "waveform";
+
+/// \throw UsageError as kept_waveform()
+void keep_waveform(Arguments& given) {
+    if (given.has(kWaveform)) given.set(kWaveform, kept_waveform(given.text(kWaveform)));
+}
+
 }  // namespace
 
 FlowSettings::FlowSettings(Arguments given) : given_(std::move(given)) {
+    keep_waveform(given_);
     static_cast<void>(parameters());  // a text in them may be wrong
 }
 
@@ -64,6 +72,7 @@ void FlowSettings::take(std::vector<std::string>& texts) {
     std::erase_if(texts, [&](const std::string& text) { return text.starts_with(prefix); });
     const GivenArguments more = arguments_from_texts(table, own);
     for (const auto& [name, value] : more->values()) given_.set(name, value);
+    keep_waveform(given_);
     static_cast<void>(parameters());  // a text in them may be wrong
 }
 
@@ -72,7 +81,10 @@ CfdParameters FlowSettings::parameters() const {
 }
 
 std::string FlowSettings::text() const {
-    return argument_summary(flow_table(), given_);
+    Arguments shown = given_;
+    if (shown.has(kWaveform) && !is_synthetic(shown.text(kWaveform)))
+        shown.set(kWaveform, std::string("(numbers of a file)"));
+    return argument_summary(flow_table(), shown);
 }
 
 std::string FlowSettings::stored() const {

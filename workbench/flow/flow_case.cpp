@@ -98,7 +98,7 @@ void remove_broken_times(const fs::path& folder) {
 }
 
 std::string time_name(double time) {
-    return formatted(time, "%.6g");
+    return formatted(time, "%.9g");
 }
 
 }  // namespace vesselbench

@@ -1,6 +1,7 @@
 #include "workbench/flow/flow_record.h"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 
 #include <nlohmann/json.hpp>
@@ -47,6 +48,14 @@ RecordedOpening recorded(const PatchMeasures& patch, const FlowSummary& summary)
     return opening;
 }
 
+std::optional<RecordedWaveform> recorded_waveform(const CfdParameters& parameters) {
+    if (!parameters.waveform) return std::nullopt;
+    return RecordedWaveform{.synthetic = parameters.waveform->synthetic,
+                            .period = parameters.waveform->period(),
+                            .periods = parameters.periods,
+                            .steps = parameters.steps};
+}
+
 FlowRecord flow_record_of(const fs::path& folder, const VolumeMesh& mesh,
                           const CfdParameters& parameters, const FlowOrigin& origin) {
     const Surface surface = boundary_surface(mesh);
@@ -64,7 +73,8 @@ FlowRecord flow_record_of(const fs::path& folder, const VolumeMesh& mesh,
                       .walls = {},
                       .openings = {},
                       .ends = origin.ends,
-                      .neck = origin.neck};
+                      .neck = origin.neck,
+                      .waveform = recorded_waveform(parameters)};
     if (record.neck) record.neck->inlet = inlet_place(surface);
     for (const PatchMeasures& patch : measure_patches(surface)) {
         if (patch.kind == PatchKind::Wall) record.walls.push_back(foam_word(patch.name));
@@ -114,6 +124,11 @@ Json to_json(const FlowRecord& record) {
                  {"openings", openings},
                  {"ends", ends}};
     if (record.neck) json["neck"] = neck_json(*record.neck);
+    if (record.waveform)
+        json["waveform"] = {{"synthetic", record.waveform->synthetic},
+                            {"period_s", record.waveform->period},
+                            {"periods", record.waveform->periods},
+                            {"steps", record.waveform->steps}};
     return json;
 }
 
@@ -150,6 +165,17 @@ RecordedNeck neck_from(const Json& json, const std::string& place) {
     return recorded;
 }
 
+RecordedWaveform waveform_from(const Json& json, const std::string& place) {
+    JsonFields fields(json, place);
+    const RecordedWaveform wave{.synthetic = fields.required<bool>("synthetic"),
+                                .period = fields.required<double>("period_s"),
+                                .periods = fields.required<int>("periods"),
+                                .steps = fields.required<int>("steps")};
+    if (!(wave.period > 0.0) || wave.periods < 1 || wave.steps < 1)
+        throw InvalidInput(place + " is not a waveform of this program");
+    return wave;
+}
+
 /// The entries of a list, each read by `read`; none if there is no list.
 template <class Entry>
 std::vector<Entry> list_from(JsonFields& fields, const char* key,
@@ -179,12 +205,18 @@ FlowRecord flow_record_from(const Json& json) {
                       .ends = list_from(fields, "ends", &made_end_from)};
     if (const Json* neck = fields.child("neck"))
         record.neck = neck_from(*neck, fields.place_of("neck"));
+    if (const Json* wave = fields.child("waveform"))
+        record.waveform = waveform_from(*wave, fields.place_of("waveform"));
     if (record.walls.empty() || record.openings.empty())
         throw InvalidInput(std::string(kFlowRecordFile) + " lists no wall, or no openings");
     return record;
 }
 
 }  // namespace
+
+int FlowRecord::steps_until(double time) const {
+    return static_cast<int>(std::lround(time / step()));
+}
 
 void write_flow_record(const fs::path& folder, const VolumeMesh& mesh,
                        const CfdParameters& parameters, const FlowOrigin& origin) {

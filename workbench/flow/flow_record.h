@@ -32,6 +32,14 @@ struct RecordedNeck {
     std::optional<Vec3> inlet = std::nullopt;  ///< [mm]
 };
 
+/// What a pulsatile flow follows.
+struct RecordedWaveform {
+    bool synthetic = false;  ///< of no measurement
+    double period = 0.0;     ///< [s]
+    int periods = 0;         ///< computed; the last one counts
+    int steps = 0;           ///< of time in a period
+};
+
 /// Where a solver's case comes from.
 struct FlowOrigin {
     std::string provenance = {};                      ///< of the model; empty: not known
@@ -56,7 +64,21 @@ struct FlowRecord {
     /// Where the vessel was cut and extended: beyond them, the wall is not its own. Empty: not
     /// known.
     std::vector<MadeEnd> ends;
-    std::optional<RecordedNeck> neck = std::nullopt;  ///< none: no sac is marked
+    std::optional<RecordedNeck> neck = std::nullopt;          ///< none: no sac is marked
+    std::optional<RecordedWaveform> waveform = std::nullopt;  ///< none: the flow is steady
+
+    /// Of the solver's time: an iteration, or a step of time [s].
+    [[nodiscard]] double step() const {
+        return waveform ? waveform->period / waveform->steps : 1.0;
+    }
+
+    /// The number of iterations, or of steps until a time folder.
+    [[nodiscard]] int steps_until(double time) const;
+
+    /// The iterations at the end whose mean counts: a period's steps, or the last one.
+    [[nodiscard]] std::size_t counted_steps() const {
+        return waveform ? static_cast<std::size_t>(waveform->steps) : 1;
+    }
 };
 
 /// Writes flow.json into the folder of a case, which is complete otherwise.

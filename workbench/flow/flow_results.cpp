@@ -11,6 +11,7 @@
 #include "geometry/kernel/statistics.h"
 #include "geometry/kernel/whole_file.h"
 #include "geometry/vessel/sac/sac_regions.h"
+#include "meshing/products/openfoam_control.h"
 #include "workbench/flow/flow_run.h"
 
 namespace vesselbench {
@@ -61,11 +62,22 @@ FlowWall flow_wall(const FlowCase& flow, double time) {
         append_patch(fields, read_foam_patch(flow.folder, wall, time));
     const std::size_t count = fields.triangles.size();
     const double density = flow.record.density;
+    const bool pulsatile = flow.record.waveform.has_value();
     FlowWall wall;
-    for (const Vec3& stress : wall_field(fields.vectors, "wallShearStress", count, flow))
+    const char* const shear = pulsatile ? cycle_means::kShear : "wallShearStress";
+    for (const Vec3& stress : wall_field(fields.vectors, shear, count, flow))
         wall.shear.push_back(-density * stress);
-    for (const double pressure : wall_field(fields.scalars, "p", count, flow))
-        wall.pressure.push_back(density * pressure);
+    const char* const pressure = pulsatile ? cycle_means::kPressure : "p";
+    for (const double value : wall_field(fields.scalars, pressure, count, flow))
+        wall.pressure.push_back(density * value);
+    wall.magnitude = magnitudes(wall.shear);
+    if (pulsatile) {
+        const auto& means = wall_field(fields.scalars, cycle_means::kMagnitude, count, flow);
+        for (std::size_t t = 0; t < count; ++t) {
+            wall.magnitude[t] = density * means[t];
+            wall.cycle.push_back(cycle_shear(wall.shear[t], wall.magnitude[t]));
+        }
+    }
     for (const Triangle& triangle : fields.triangles)
         wall.areas.push_back(triangle_area(fields.points, triangle));
     wall.surface = make_surface(std::move(fields.points), std::move(fields.triangles));
@@ -97,8 +109,8 @@ void require_same_wall(const FlowCase& flow, const FlowWall& wall) {
 }
 
 /// From the log's head.
-std::string solver_of(const fs::path& folder) {
-    const fs::path file = folder / "log.simpleFoam";
+std::string solver_of(const FlowCase& flow) {
+    const fs::path file = flow.folder / solver_log(flow.record);
     if (!fs::is_regular_file(file)) return "OpenFOAM";
     const std::string log = file_content(file), key = "OPENFOAM=";
     const std::size_t at = log.find(key);
@@ -124,7 +136,7 @@ std::vector<RegionShear> shear_by_region(const FlowWall& wall,
         for (std::size_t t = 0; t < areas.size(); ++t)
             if (found.triangles[t] != region) areas[t] = 0.0;
         if (std::ranges::max(areas) > 0.0)
-            regions.push_back({to_string(region), shear_figures(magnitudes(wall.shear), areas)});
+            regions.push_back({to_string(region), shear_figures(wall.magnitude, areas)});
     }
     return regions;
 }
@@ -132,23 +144,26 @@ std::vector<RegionShear> shear_by_region(const FlowWall& wall,
 std::vector<OpeningFigures> opening_figures(const FlowResults& results) {
     std::vector<OpeningFigures> openings;
     for (const RecordedOpening& recorded : results.flow.record.openings) {
-        const double out = results.history.flows.at(recorded.name).back();
-        openings.push_back({.recorded = recorded,
-                            .flow = recorded.kind == PatchKind::Inlet ? -out : out,
-                            .pressure = results.history.pressures.at(recorded.name).back()});
+        const FlowRecord& record = results.flow.record;
+        const double out = counted_value(results.history.flows.at(recorded.name), record);
+        openings.push_back(
+            {.recorded = recorded,
+             .flow = recorded.kind == PatchKind::Inlet ? -out : out,
+             .pressure = counted_value(results.history.pressures.at(recorded.name), record)});
     }
     return openings;
 }
 
 double imbalance_of(const FlowResults& results) {
     double out = 0.0;
-    for (const auto& [name, flows] : results.history.flows) out += flows.back();
+    for (const auto& [name, flows] : results.history.flows)
+        out += counted_value(flows, results.flow.record);
     return std::abs(out) / total_inflow(results.history, results.flow.record);
 }
 
 /// The history until the fields were written.
-void end_history(FlowHistory& history, double time) {
-    const auto end = std::ranges::upper_bound(history.iterations, static_cast<int>(time));
+void end_history(FlowHistory& history, int last) {
+    const auto end = std::ranges::upper_bound(history.iterations, last);
     const auto count = static_cast<std::size_t>(end - history.iterations.begin());
     history.iterations.resize(count);
     history.wall_shear.resize(count);
@@ -156,7 +171,43 @@ void end_history(FlowHistory& history, double time) {
         for (auto& [name, series] : *all) series.resize(count);
 }
 
+/// \throw InvalidInput if the last period of a pulsatile flow is not computed to its end
+void require_whole_cycle(const FlowCase& flow, double time) {
+    const auto& wave = flow.record.waveform;
+    if (!wave || flow.record.steps_until(time) >= wave->periods * wave->steps) return;
+    throw InvalidInput("'" + bare_name(flow.folder) + "' has been run to step " +
+                       std::to_string(flow.record.steps_until(time)) + " of " +
+                       std::to_string(wave->periods * wave->steps) +
+                       ": `vesselbench run` goes on there; figures are of the last period");
+}
+
+std::optional<double> period_change_of(const FlowSeries& shear, const FlowRecord& record) {
+    const std::size_t steps = record.counted_steps();
+    if (shear.size() < 2 * steps) return std::nullopt;
+    const FlowSeries before(shear.begin(), shear.end() - static_cast<std::ptrdiff_t>(steps));
+    return std::abs(counted_value(shear, record) / counted_value(before, record) - 1.0);
+}
+
 }  // namespace
+
+CycleFigures cycle_figures(const std::vector<CycleShear>& values,
+                           const std::vector<double>& areas) {
+    std::vector<double> osi, rrt, ecap;
+    CycleFigures figures;
+    const double all = total_area(areas);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        osi.push_back(values[i].osi);
+        rrt.push_back(values[i].rrt);
+        ecap.push_back(values[i].ecap);
+        figures.osi_mean += areas[i] * values[i].osi / all;
+    }
+    figures.osi_p95 = weighted_percentile(osi, areas, 0.95);
+    figures.rrt_median = weighted_percentile(rrt, areas, 0.5);
+    figures.rrt_p95 = weighted_percentile(rrt, areas, 0.95);
+    figures.ecap_median = weighted_percentile(ecap, areas, 0.5);
+    figures.ecap_p95 = weighted_percentile(ecap, areas, 0.95);
+    return figures;
+}
 
 std::vector<double> magnitudes(const std::vector<Vec3>& vectors) {
     std::vector<double> sizes;
@@ -187,24 +238,32 @@ FlowResults read_flow_results(const FlowCase& flow) {
     if (!time)
         throw InvalidInput("'" + bare_name(flow.folder) +
                            "' has no results: `vesselbench run` solves the flow first");
+    require_whole_cycle(flow, *time);
     FlowResults results{.flow = flow,
                         .time = *time,
                         .history = flow_history(flow.folder, flow.record),
                         .settling = {},
-                        .solver = solver_of(flow.folder),
+                        .solver = solver_of(flow),
                         .wall = flow_wall(flow, *time),
                         .shear = {},
                         .regions = {},
                         .openings = {}};
     require_same_wall(flow, results.wall);
-    end_history(results.history, *time);
-    if (results.history.iterations.empty() || results.history.iterations.back() != int(*time))
+    const int last = flow.record.steps_until(*time);
+    end_history(results.history, last);
+    if (results.history.iterations.empty() || results.history.iterations.back() != last)
         throw InvalidInput("'" + bare_name(flow.folder) +
                            "': postProcessing/ lacks the tables of " + "iteration " +
                            time_name(*time) + ": run the case again");
     results.settling = settling_of(results.history, flow.record);
-    results.converged = results.settling.settled || has_reached_residuals(flow.folder);
-    results.shear = shear_figures(magnitudes(results.wall.shear), results.wall.own_areas);
+    if (flow.record.waveform) {
+        results.converged = true;  // else it is refused
+        results.cycle = cycle_figures(results.wall.cycle, results.wall.own_areas);
+        results.period_change = period_change_of(results.history.wall_shear, flow.record);
+    } else {
+        results.converged = results.settling.settled || has_reached_residuals(flow.folder);
+    }
+    results.shear = shear_figures(results.wall.magnitude, results.wall.own_areas);
     results.regions = shear_by_region(results.wall, flow.record.neck);
     results.openings = opening_figures(results);
     results.pressure_drop = pressure_drop(results.history, flow.record);

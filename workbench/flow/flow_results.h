@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "geometry/kernel/surface.h"
+#include "workbench/flow/cycle_shear.h"
 #include "workbench/flow/flow_case.h"
 #include "workbench/flow/flow_tables.h"
 #include "workbench/flow/flow_watch.h"
@@ -13,8 +14,12 @@ namespace vesselbench {
 
 /// The wall of a solved case with what the blood does to it.
 struct FlowWall {
-    Surface surface;                ///< [mm], triangles outward
-    std::vector<Vec3> shear;        ///< stress that the blood exerts on the wall, #T [Pa]
+    Surface surface;  ///< [mm], triangles outward
+    /// Stress that the blood exerts on the wall; of a pulsatile flow its mean over the last period,
+    /// as pressure; #T [Pa]
+    std::vector<Vec3> shear;
+    std::vector<double> magnitude;  ///< of the stress, or the mean of its magnitude, #T [Pa]
+    std::vector<CycleShear> cycle;  ///< of a pulsatile flow, #T; empty: it is steady
     std::vector<double> pressure;   ///< static, relative to the outlets', #T [Pa]
     std::vector<double> areas;      ///< #T [mm^2]
     std::vector<double> own_areas;  ///< the same; 0 where the wall is not the vessel's own [mm^2]
@@ -43,7 +48,14 @@ struct OpeningFigures {
     double pressure = 0.0;  ///< static, mean over its area [Pa]
 };
 
-/// The figures of a solved steady flow.
+/// Figures of the wall in a pulsatile flow, weighted by area over the vessel's own wall.
+struct CycleFigures {
+    double osi_mean = 0.0, osi_p95 = 0.0;      ///< [-]
+    double rrt_median = 0.0, rrt_p95 = 0.0;    ///< [1/Pa]
+    double ecap_median = 0.0, ecap_p95 = 0.0;  ///< [1/Pa]
+};
+
+/// The figures of a solved flow; of a pulsatile one, means over its last period.
 struct FlowResults {
     FlowCase flow;
     double time = 0.0;  ///< iterations of the solver until the fields were written
@@ -53,6 +65,10 @@ struct FlowResults {
     std::string solver;      ///< "OpenFOAM 1912"; "OpenFOAM" where its log is missing
     FlowWall wall;
     ShearFigures shear;  ///< of the vessel's own wall: without what was cut and extended
+    std::optional<CycleFigures> cycle = std::nullopt;  ///< of a pulsatile flow
+    /// Of the wall's mean shear, from the period before the last to the last one, relative; none:
+    /// there is one period, or the flow is steady.
+    std::optional<double> period_change = std::nullopt;
     std::vector<RegionShear> regions;  ///< with a wall, where a sac's neck was marked
     std::vector<OpeningFigures> openings;
     double pressure_drop = 0.0;  ///< [Pa]
@@ -64,6 +80,10 @@ struct FlowResults {
 
 /// \param areas of the places of the values, at least one above 0
 [[nodiscard]] ShearFigures shear_figures(const std::vector<double>& values,
+                                         const std::vector<double>& areas);
+
+/// \param areas of the places of the values, at least one above 0
+[[nodiscard]] CycleFigures cycle_figures(const std::vector<CycleShear>& values,
                                          const std::vector<double>& areas);
 
 /// Reads the last time of a case that was written whole. OpenFOAM's shear stress is by density, and

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
+#include <string_view>
 #include <thread>
 
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/whole_file.h"
 #include "geometry/kernel/wording.h"
+#include "meshing/products/cfd_parameters.h"
 #include "meshing/products/openfoam_control.h"
 #include "workbench/flow/solver_process.h"
 
@@ -23,8 +26,12 @@ constexpr std::size_t kCellsForProcess = 10000;
 /// Shares of the progress of a parallel run: the mesh is divided before, and joined after it.
 constexpr double kDivided = 0.04, kJoined = 0.96;
 
-void require_openfoam() {
-    if (installed_program("simpleFoam").empty())
+std::string solver_of(const FlowRecord& record) {
+    return solver_name(record.waveform.has_value());
+}
+
+void require_openfoam(const FlowRecord& record) {
+    if (installed_program(solver_of(record)).empty())
         throw AlgorithmFailure(
             "OpenFOAM is not installed: the case is complete, and `vesselbench run` runs it after "
             "`apt install openfoam`");
@@ -79,6 +86,7 @@ public:
         if (history.iterations == before_ || history.iterations.empty()) return;  // not begun
         if (first_ == 0) first_ = history.iterations.back();
         const Settling settling = settling_of(history, flow_.record, limits_);
+        if (flow_.record.waveform) return look_at_step(history, settling);
         const double done = std::max(0, history.iterations.back() - first_);
         progress_.report(
             done / (done + std::max(1.0, settling.remaining)),
@@ -91,6 +99,16 @@ public:
     }
 
 private:
+    /// A pulsatile flow goes on to its end.
+    void look_at_step(const FlowHistory& history, const Settling& settling) const {
+        const RecordedWaveform& wave = *flow_.record.waveform;
+        const int step = history.iterations.back(), all = wave.periods * wave.steps;
+        progress_.report(std::min(1.0, static_cast<double>(step) / all),
+                         "step " + std::to_string(step) + " of " + std::to_string(all) +
+                             formatted(settling.residual, ", residual %.1e"));
+        refuse_divergence(settling, step);
+    }
+
     /// OpenFOAM stops by itself at a number that is none, unless its traps are off.
     static void refuse_divergence(const Settling& settling, int iteration) {
         if (!std::isfinite(settling.residual))
@@ -116,11 +134,12 @@ void run_divided(const FlowCase& flow, int processes, FlowWatcher& watcher,
         flow.folder, {"decomposePar", "-case", folder, "-force", "-latestTime"}, "decomposePar",
         [] {}, progress);
     // The solver's processes have groups of their own: each ends with mpirun.
+    const std::string solver = solver_of(flow.record);
     run_solver(
         flow.folder,
-        {"mpirun", "-np", std::to_string(processes), "setpriv", "--pdeathsig", "KILL", "simpleFoam",
+        {"mpirun", "-np", std::to_string(processes), "setpriv", "--pdeathsig", "KILL", solver,
          "-case", folder, "-parallel"},
-        "simpleFoam", [&] { watcher.look(); }, progress);
+        solver, [&] { watcher.look(); }, progress);
     progress.report(kJoined, "joining the parts");
     take_up(flow.folder, progress);
 }
@@ -133,17 +152,59 @@ FlowRun flow_run_of(const FlowCase& flow, const SettlingLimits& limits) {
     const FlowHistory history = flow_history(flow.folder, flow.record);
     FlowRun run{.iterations = last_iteration(history),
                 .settling = settling_of(history, flow.record, limits)};
-    run.converged = run.settling.settled || has_reached_residuals(flow.folder);
+    if (const auto& wave = flow.record.waveform)
+        run.converged = run.iterations >= wave->periods * wave->steps;
+    else
+        run.converged = run.settling.settled || has_reached_residuals(flow.folder);
     return run;
+}
+
+/// The largest in a solver's log [-]; 0: there is none.
+double largest_courant(const fs::path& log) {
+    if (!fs::is_regular_file(log)) return 0.0;
+    constexpr std::string_view kLine = "Courant Number mean: ", kMost = "max: ";
+    const std::string text = file_content(log);
+    double largest = 0.0;
+    for (std::size_t at = text.find(kLine); at != std::string::npos;
+         at = text.find(kLine, at + 1)) {
+        const std::size_t most = text.find(kMost, at);
+        if (most == std::string::npos) break;
+        largest = std::max(largest, std::strtod(text.c_str() + most + kMost.size(), nullptr));
+    }
+    return largest;
+}
+
+/// Above it, steps of time may be too long for a pulsatile flow.
+constexpr double kSafeCourant = 5.0;
+
+/// Runs the solver. \throw AlgorithmFailure that names the remedy if its steps of time are too long
+void solve(const FlowCase& flow, int processes, FlowWatcher& watcher, const Progress& progress) {
+    try {
+        if (processes > 1) return run_divided(flow, processes, watcher, progress);
+        run_solver(
+            flow.folder, {solver_of(flow.record), "-case", flow.folder.string()},
+            solver_of(flow.record), [&] { watcher.look(); }, progress);
+    } catch (const AlgorithmFailure& error) {
+        const double courant = largest_courant(flow.folder / solver_log(flow.record));
+        if (!flow.record.waveform || courant < kSafeCourant) throw;
+        throw AlgorithmFailure("the flow diverges at a Courant number of" +
+                               formatted(courant, " %.2g") + ": export it with more than the " +
+                               std::to_string(flow.record.waveform->steps) +
+                               " openfoam.steps in a period (" + error.what() + ")");
+    }
 }
 
 /// True if the last iteration is written whole, and nothing is left to be done.
 bool is_finished(const FlowCase& flow, const FlowRun& run) {
     return run.converged && run.iterations > 0 &&
-           last_whole_time(flow.folder).value_or(0.0) == run.iterations;
+           flow.record.steps_until(last_whole_time(flow.folder).value_or(0.0)) == run.iterations;
 }
 
 }  // namespace
+
+std::string solver_log(const FlowRecord& record) {
+    return "log." + solver_of(record);
+}
 
 bool has_reached_residuals(const fs::path& folder) {
     const fs::path log = folder / "log.simpleFoam";
@@ -155,30 +216,29 @@ FlowRun run_flow(const FlowCase& flow, const FlowRunOptions& options,
                  const std::function<void(const std::string&)>& tell, const Progress& progress) {
     FlowRun run = flow_run_of(flow, options.limits);
     if (is_finished(flow, run)) {
-        tell("the flow was solved before, in " + counted(std::size_t(run.iterations), "iteration"));
+        tell("the flow was solved before, in " +
+             counted(std::size_t(run.iterations), flow.record.waveform ? "step" : "iteration"));
         return run;
     }
-    require_openfoam();
+    require_openfoam(flow.record);
     const auto begin = std::chrono::steady_clock::now();
     take_up(flow.folder, progress);
     if (const std::optional<double> time = last_whole_time(flow.folder))
-        tell("going on after iteration " + time_name(*time));
+        tell("going on after " + std::string(flow.record.waveform ? "step " : "iteration ") +
+             std::to_string(flow.record.steps_until(*time)));
     const int processes = useful_processes(flow.record, options.processes);
     tell(counted(flow.record.cells, "cell") + ", " +
          counted(std::size_t(processes), "process", "processes"));
     FlowWatcher watcher(flow, options.limits, progress.part(kDivided, kJoined));
-    if (processes > 1)
-        run_divided(flow, processes, watcher, progress);
-    else
-        run_solver(
-            flow.folder, {"simpleFoam", "-case", flow.folder.string()}, "simpleFoam",
-            [&] { watcher.look(); }, progress);
+    solve(flow, processes, watcher, progress);
     write_file(flow.folder / "case.foam", "");  // for ParaView
     run = flow_run_of(flow, options.limits);
     run.processes = processes;
     run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     if (!last_whole_time(flow.folder))
-        throw AlgorithmFailure("simpleFoam ended without a result: see log.simpleFoam");
+        throw AlgorithmFailure(solver_of(flow.record) + " ended without a result: see " +
+                               solver_log(flow.record));
+    if (flow.record.waveform) run.courant = largest_courant(flow.folder / solver_log(flow.record));
     return run;
 }
 

@@ -40,7 +40,8 @@ std::optional<double> row_number(const std::string& word) {
 }
 
 /// Adds the rows of one file. A last line without its end is still being written.
-void add_table_rows(FlowTable& table, const std::string& text, const std::string& file) {
+void add_table_rows(FlowTable& table, const FlowRecord& record, const std::string& text,
+                    const std::string& file) {
     std::size_t begin = 0;
     for (std::size_t end = 0; (end = text.find('\n', begin)) != std::string::npos;
          begin = end + 1) {
@@ -53,7 +54,7 @@ void add_table_rows(FlowTable& table, const std::string& text, const std::string
         }
         const std::optional<double> iteration = row_number(words.front());
         if (!iteration) throw InvalidInput(file + " is not a table of OpenFOAM: it is damaged");
-        std::vector<double>& row = table.rows[static_cast<int>(*iteration)];
+        std::vector<double>& row = table.rows[record.steps_until(*iteration)];
         row.clear();
         for (std::size_t k = 1; k < words.size(); ++k)
             row.push_back(row_number(words[k]).value_or(std::numeric_limits<double>::quiet_NaN()));
@@ -74,12 +75,13 @@ std::map<double, fs::path> files_of(const fs::path& folder, const std::string& n
     return files;
 }
 
-FlowTable read_table(const fs::path& folder, const std::string& name) {
+FlowTable read_table(const fs::path& folder, const FlowRecord& record, const std::string& name) {
     FlowTable table;
     for (const auto& [start, file] : files_of(folder, name)) {
         // What an earlier run did behind this start was lost with it.
-        std::erase_if(table.rows, [&](const auto& row) { return row.first > start; });
-        add_table_rows(table, file_content(file), bare_name(file));
+        const int last = record.steps_until(start);
+        std::erase_if(table.rows, [&](const auto& row) { return row.first > last; });
+        add_table_rows(table, record, file_content(file), bare_name(file));
     }
     return table;
 }
@@ -101,13 +103,15 @@ constexpr const char* kInitial = "_initial";
 }  // namespace
 
 FlowHistory flow_history(const fs::path& folder, const FlowRecord& record) {
-    const FlowTable residuals = read_table(folder, watched_tables::kResiduals);
-    const FlowTable shear = read_table(folder, watched_tables::kWallShear + record.walls.front());
+    const FlowTable residuals = read_table(folder, record, watched_tables::kResiduals);
+    const FlowTable shear =
+        read_table(folder, record, watched_tables::kWallShear + record.walls.front());
     std::map<std::string, FlowTable> pressures, flows;
     std::vector<const FlowTable*> all = {&residuals, &shear};
     for (const RecordedOpening& opening : record.openings) {
-        pressures[opening.name] = read_table(folder, watched_tables::kPressure + opening.name);
-        flows[opening.name] = read_table(folder, watched_tables::kFlow + opening.name);
+        pressures[opening.name] =
+            read_table(folder, record, watched_tables::kPressure + opening.name);
+        flows[opening.name] = read_table(folder, record, watched_tables::kFlow + opening.name);
         all.insert(all.end(), {&pressures[opening.name], &flows[opening.name]});
     }
     FlowHistory history;

@@ -12,7 +12,7 @@ namespace vesselbench {
 /// A figure of every iteration, in the order of FlowHistory::iterations.
 using FlowSeries = std::vector<double>;
 
-/// What simpleFoam has written of its iterations so far (watched_tables).
+/// What the solver has written of its iterations, or steps of time, so far (watched_tables).
 struct FlowHistory {
     std::vector<int> iterations;                  ///< ascending
     std::map<std::string, FlowSeries> residuals;  ///< initial ones, by equation: Ux, Uy, Uz, p [-]

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <span>
 
 namespace vesselbench {
@@ -58,11 +59,16 @@ double iterations_to(const FlowHistory& history, double residual, double limit) 
 
 }  // namespace
 
+double counted_value(const FlowSeries& series, const FlowRecord& record) {
+    const auto last = std::span(series).last(std::min(series.size(), record.counted_steps()));
+    return std::accumulate(last.begin(), last.end(), 0.0) / static_cast<double>(last.size());
+}
+
 double pressure_drop(const FlowHistory& history, const FlowRecord& record) {
     double highest = 0.0, lowest = 0.0;
     if (history.iterations.empty()) return 0.0;
     for (const RecordedOpening& opening : record.openings) {
-        const double pressure = history.pressures.at(opening.name).back();
+        const double pressure = counted_value(history.pressures.at(opening.name), record);
         highest = std::max(highest, pressure);
         lowest = std::min(lowest, pressure);
     }
@@ -73,7 +79,8 @@ double total_inflow(const FlowHistory& history, const FlowRecord& record) {
     double inflow = 0.0;
     if (history.iterations.empty()) return 0.0;
     for (const RecordedOpening& opening : record.openings)
-        if (opening.kind == PatchKind::Inlet) inflow -= history.flows.at(opening.name).back();
+        if (opening.kind == PatchKind::Inlet)
+            inflow -= counted_value(history.flows.at(opening.name), record);
     return inflow;
 }
 

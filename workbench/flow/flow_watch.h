@@ -24,11 +24,15 @@ struct Settling {
 [[nodiscard]] Settling settling_of(const FlowHistory& history, const FlowRecord& record,
                                    const SettlingLimits& limits = {});
 
-/// Largest difference of pressure between an inlet and an outlet in the last iteration [Pa]; 0:
-/// there is none yet.
+/// The last value of a series; of a pulsatile flow, the mean over the last period's steps.
+/// \param series not empty
+[[nodiscard]] double counted_value(const FlowSeries& series, const FlowRecord& record);
+
+/// Largest difference of pressure between an inlet and an outlet (counted_value) [Pa]; 0: there is
+/// none yet.
 [[nodiscard]] double pressure_drop(const FlowHistory& history, const FlowRecord& record);
 
-/// What enters through inlets in the last iteration [cm^3/s].
+/// What enters through inlets (counted_value) [cm^3/s].
 [[nodiscard]] double total_inflow(const FlowHistory& history, const FlowRecord& record);
 
 }  // namespace vesselbench

@@ -45,6 +45,8 @@ Json section_texts(const FlowResults& results, const std::vector<ReportPicture>&
     return {{"figures", figures},
             {"openings", openings},
             {"pictures", gallery},
+            {"steady", !results.cycle},
+            {"pulsatile", results.cycle.has_value()},
             {"not_converged", !results.converged},
             {"methods", methods_text(results)},
             {"references", method_references(results)}};

@@ -23,20 +23,33 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kShearLabel = "Wall shear stress";
+std::string shear_label(const FlowResults& results) {
+    return results.cycle ? "Time-averaged wall shear stress" : "Wall shear stress";
+}
 
 ColourScale shear_scale(const FlowResults& results) {
     return {ColourMap::Ordered, 0.0, results.shear.p99 > 0.0 ? results.shear.p99 : 1.0};
 }
 
 std::vector<double> shear_at_vertices(const FlowWall& wall) {
-    return values_at_vertices(wall.surface, magnitudes(wall.shear), wall.areas);
+    return values_at_vertices(wall.surface, wall.magnitude, wall.areas);
 }
 
 using SharedValues = std::shared_ptr<const std::vector<double>>;
 
 SharedValues shared_values(std::vector<double> values) {
     return std::make_shared<const std::vector<double>>(std::move(values));
+}
+
+void add_cycle_arrays(VtkMesh& mesh, const std::vector<CycleShear>& cycle) {
+    const auto add = [&](const char* name, double CycleShear::*figure) {
+        std::vector<double> values;
+        for (const CycleShear& shear : cycle) values.push_back(shear.*figure);
+        mesh.cell_values[name] = shared_values(std::move(values));
+    };
+    add(wall_arrays::kOsi, &CycleShear::osi);
+    add(wall_arrays::kRrt, &CycleShear::rrt);
+    add(wall_arrays::kEcap, &CycleShear::ecap);
 }
 
 void write_wall_vtp(const FlowResults& results, const std::string& path) {
@@ -51,15 +64,16 @@ void write_wall_vtp(const FlowResults& results, const std::string& path) {
                        {wall_arrays::kPressure, shared_values(values_at_vertices(
                                                     wall.surface, wall.pressure, wall.areas))}};
     mesh.cell_values = {{wall_arrays::kShearVector, shared_values(std::move(vectors))},
-                        {wall_arrays::kShear, shared_values(magnitudes(wall.shear))},
+                        {wall_arrays::kShear, shared_values(wall.magnitude)},
                         {wall_arrays::kPressure, shared_values(wall.pressure)}};
+    if (!wall.cycle.empty()) add_cycle_arrays(mesh, wall.cycle);
     write_vtk_poly_data(mesh, path);
 }
 
 void write_wall_glb(const FlowResults& results, const std::string& path) {
     const ColourScale scale = shear_scale(results);
     GlbColours colours{.name = wall_arrays::kShear,
-                       .label = kShearLabel,
+                       .label = shear_label(results),
                        .unit = "Pa",
                        .least = scale.least,
                        .most = scale.most,
@@ -136,7 +150,7 @@ std::vector<double> values_at_vertices(const Surface& surface, const std::vector
 
 std::vector<ReportPicture> shear_pictures(const FlowResults& results) {
     return measure_pictures(results.wall.surface, shear_at_vertices(results.wall),
-                            shear_scale(results), std::string(kShearLabel) + " [Pa]");
+                            shear_scale(results), shear_label(results) + " [Pa]");
 }
 
 WrittenResults write_flow_results(const FlowResults& results, const fs::path& folder,

@@ -17,6 +17,9 @@ namespace wall_arrays {
 inline constexpr const char* kShearVector = "wall_shear_stress_pa";
 inline constexpr const char* kShear = "wall_shear_pa";
 inline constexpr const char* kPressure = "pressure_pa";
+inline constexpr const char* kOsi = "osi";  // this and the next two of a pulsatile flow
+inline constexpr const char* kRrt = "rrt_per_pa";
+inline constexpr const char* kEcap = "ecap_per_pa";
 }  // namespace wall_arrays
 
 /// Values of triangles at the vertices: means of their triangles, weighted by area.

@@ -32,7 +32,23 @@ Json flow_case_json(const FlowResults& results) {
             {"profile", record.parabolic ? "parabolic" : "plug"}};
 }
 
+Json pulsatile_json(const FlowResults& results) {
+    const RecordedWaveform& wave = *results.flow.record.waveform;
+    Json json = {{"kind", "pulsatile"},
+                 {"solver", results.solver + " pimpleFoam"},
+                 {"waveform", wave.synthetic ? "synthetic" : "file"},
+                 {"period_s", wave.period},
+                 {"periods", wave.periods},
+                 {"steps_per_period", wave.steps},
+                 {"converged", results.converged},
+                 {"largest_residual", results.settling.residual}};
+    if (results.period_change)
+        json["change_of_last_period_percent"] = kPercent * *results.period_change;
+    return json;
+}
+
 Json solution_json(const FlowResults& results) {
+    if (results.flow.record.waveform) return pulsatile_json(results);
     return {{"kind", "steady"},
             {"solver", results.solver + " simpleFoam"},
             {"converged", results.converged},
@@ -71,6 +87,21 @@ void add_region(const RegionShear& region, std::vector<FlowFigure>& figures) {
                        kPercent * shear.low_area / shear.area, where});
 }
 
+void add_cycle(const CycleFigures& cycle, std::vector<FlowFigure>& figures) {
+    const std::string osi =
+        "oscillatory shear index 0.5 (1 - |mean stress vector| / TAWSS) (He, Ku 1996)";
+    const std::string rrt = "relative residence time 1 / ((1 - 2 OSI) TAWSS) (Himburg et al. 2004)";
+    const std::string ecap =
+        "endothelial cell activation potential OSI / TAWSS (Di Achille et al. 2014)";
+    figures.insert(figures.end(),
+                   {{"osi_mean", "mean OSI", "-", cycle.osi_mean, osi},
+                    {"osi_p95", "95th percentile of OSI", "-", cycle.osi_p95, osi},
+                    {"rrt_median_per_pa", "median RRT", "1/Pa", cycle.rrt_median, rrt},
+                    {"rrt_p95_per_pa", "95th percentile of RRT", "1/Pa", cycle.rrt_p95, rrt},
+                    {"ecap_median_per_pa", "median ECAP", "1/Pa", cycle.ecap_median, ecap},
+                    {"ecap_p95_per_pa", "95th percentile of ECAP", "1/Pa", cycle.ecap_p95, ecap}});
+}
+
 }  // namespace
 
 std::vector<FlowFigure> flow_figures(const FlowResults& results) {
@@ -89,7 +120,8 @@ std::vector<FlowFigure> flow_figures(const FlowResults& results) {
         {"wall_area_mm2", "area of the vessel's own wall", "mm^2", shear.area,
          "without what was extended, and half a diameter before it: all that follows is of it"},
         {"wall_shear_mean_pa", "mean wall shear stress", "Pa", shear.mean,
-         "magnitude, weighted by area"},
+         results.cycle ? "TAWSS: magnitude, averaged over the last period, weighted by area"
+                       : "magnitude, weighted by area"},
         percentile("wall_shear_p1_pa", 1, shear.p1),
         percentile("wall_shear_p5_pa", 5, shear.p5),
         {"wall_shear_median_pa", "median wall shear stress", "Pa", shear.median,
@@ -101,6 +133,7 @@ std::vector<FlowFigure> flow_figures(const FlowResults& results) {
         {"low_shear_area_mm2", "area of low shear", "mm^2", shear.low_area, low_shear_definition()},
         {"low_shear_area_percent", "share of low shear", "%",
          kPercent * shear.low_area / shear.area, low_shear_definition()}};
+    if (results.cycle) add_cycle(*results.cycle, figures);
     for (const RegionShear& region : results.regions) add_region(region, figures);
     return figures;
 }
@@ -119,7 +152,7 @@ Json results_json(const FlowResults& results) {
 }
 
 std::string history_csv(const FlowHistory& history) {
-    std::string text = "iteration";
+    std::string text = "iteration";  // of a pulsatile flow a step of time
     std::vector<const FlowSeries*> columns;
     const auto add = [&](const std::string& title, const FlowSeries& series) {
         text += "," + title;

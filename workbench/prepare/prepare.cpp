@@ -47,8 +47,10 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-/// Fraction of the progress for the edits; the rest is for reports and files.
+/// Fraction of the progress for the edits, and until the shares of the outlets are known; the rest
+/// is for reports and files.
 constexpr double kEditsShare = 0.8;
+constexpr double kOutletsShare = 0.85;
 
 /// \throw UsageError if a result would replace what it is made from
 void refuse_own_input(const PrepareOptions& options, const Input& input) {
@@ -177,18 +179,40 @@ void tell_flow(const PrepareOptions& options, const FlowSettings& flow, const Te
     tell((changed ? "flow: " : "flow as before: ") + text);
 }
 
+/// Of a flow that the outlets share along the centerlines, before a mesh is made of the surface.
+/// \throw AlgorithmFailure if an outlet gets none
+void check_outlets(Session& session, const PreparedCase& prepared, const Progress& progress) {
+    if (prepared.flow.outlets != OutletFlow::Bifurcations ||
+        !find_purpose(prepared.purpose).simulates_flow)
+        return;
+    std::vector<LogEntry> made = session.log(prepared.purpose);
+    std::erase_if(made, [](const LogEntry& entry) {
+        return !entry.result || entry.edit.place.step >= Step::Product;
+    });
+    if (made.empty()) return;
+    const Scene scene = session.scene_after(made.back().edit.edit.id, progress.silent());
+    try {
+        static_cast<void>(
+            with_outlet_shares(flow_in_vessel(prepared.flow, made), surface_of(scene), progress));
+    } catch (const InvalidInput& error) {
+        throw AlgorithmFailure(error.what());  // the model lacks something the case needs
+    }
+}
+
 /// Applies what is left of the recipe and runs pending edits, in the order of the case. A model
-/// that has lost vessels, or an opening in a vessel's side, is an error as early as it can be seen,
-/// and so is an edit that no longer applies.
+/// that has lost vessels, an opening in a vessel's side, or an outlet without a share of the flow
+/// is an error as early as it can be seen, and so is an edit that no longer applies.
 /// \return a warning of the checks
 std::optional<Diagnostic> make_model(Session& session, const Recipe& recipe,
-                                     const PrepareOptions& options, const Teller& tell,
-                                     const Progress& progress) {
+                                     const PrepareOptions& options, const PreparedCase& prepared,
+                                     const Teller& tell, const Progress& progress) {
     ModelChecks checks(session, options.purpose);
     const Progress quiet = progress.silent();
     const RecipeWatch watch{.before =
-                                [&](Step step) {
-                                    if (step >= Step::Product) checks.surface_final(quiet);
+                                [&](Step step, const Progress& before) {
+                                    if (step < Step::Product) return;
+                                    checks.surface_final(quiet);
+                                    check_outlets(session, prepared, before);
                                 },
                             .after =
                                 [&](const LogEntry& edit) {
@@ -298,7 +322,7 @@ void write_refusal(const PrepareOptions& options, const std::exception& error, c
 PrepareSummary finished(Session& session, const Recipe& rest, const PrepareOptions& options,
                         PreparedCase prepared, const Teller& tell, const Progress& progress) {
     const std::optional<Diagnostic> warning =
-        make_model(session, rest, options, tell, progress.part(0.0, kEditsShare));
+        make_model(session, rest, options, prepared, tell, progress.part(0.0, kEditsShare));
     for (Diagnostic& kept : kept_warnings(options.out / kProjectFile, session, options.purpose))
         prepared.warnings.push_back(std::move(kept));
     if (warning) prepared.warnings.push_back(*warning);
@@ -314,10 +338,11 @@ PrepareSummary finished(Session& session, const Recipe& rest, const PrepareOptio
         pass_gate(session, options.purpose, prepared.reviewers, options.out, tell,
                   progress.silent());
         if (prepared.scene.volume_mesh)
-            prepared.flow = with_outlet_shares(std::move(prepared.flow), surface_of(prepared.scene),
-                                               progress.silent());
+            prepared.flow =
+                with_outlet_shares(std::move(prepared.flow), *prepared.scene.volume_mesh,
+                                   progress.part(kEditsShare, kOutletsShare));
         return write_results(session, options, std::move(prepared), tell,
-                             progress.part(kEditsShare, 1.0));
+                             progress.part(kOutletsShare, 1.0));
     } catch (const InvalidInput& error) {
         throw AlgorithmFailure(error.what());  // the model lacks something the product needs
     }

@@ -101,6 +101,11 @@ Json flow_json(const FlowSummary& summary, const CfdParameters& flow) {
     if (flow.viscosity_model == ViscosityModel::Carreau) json["viscosity_model"] = "Carreau";
     for (const GivenOutflow& outlet : summary.outflows)
         json["outflows_cm3_s"][outlet.name] = outlet.flow;
+    if (flow.waveform)
+        json["waveform"] = {{"kind", flow.waveform->synthetic ? "synthetic" : "file"},
+                            {"period_s", flow.waveform->period()},
+                            {"periods", flow.periods},
+                            {"steps_per_period", flow.steps}};
     if (flow.split) json["split"] = *flow.split == FlowSplit::Cubes ? "cubes" : "area";
     return json;
 }

@@ -119,6 +119,9 @@ template <class Error>
     throw Error(error.what());
 }
 
+/// Share of an edit's progress for what its watcher does before it.
+constexpr double kBeforeEdit = 0.05;
+
 /// Applies entries and runs pending edits, and lets others know.
 class RecipeRun {
 public:
@@ -127,10 +130,10 @@ public:
         : session_(session), variant_(variant), tell_(tell), watch_(watch) {}
 
     void apply(const RecipeEntry& entry, const Progress& progress) {
-        if (watch_.before) watch_.before(step_of(entry));
+        if (watch_.before) watch_.before(step_of(entry), progress.part(0.0, kBeforeEdit));
         const VesselEntry as = vessel_entry(extraction_entry(entry, session_), session_);
         const DecidedEntry decided = decided_entry(as.entry, session_, variant_, progress.silent());
-        const std::optional<LogEntry> done = made(decided.entry, progress);
+        const std::optional<LogEntry> done = made(decided.entry, progress.part(kBeforeEdit, 1.0));
         if (done && !decided.remark.empty()) tell_(done->edit.operation + ": " + decided.remark);
         if (done && as.warning) warn_of(*as.warning, as.entry, *done);
         if (done && watch_.after) watch_.after(*done);
@@ -143,9 +146,10 @@ public:
         for (std::vector<LogEntry> log = session_.log();; log = session_.log()) {
             const auto next = std::ranges::find_if(log, is_next);
             if (next == log.end()) return;
-            if (watch_.before) watch_.before(next->edit.place.step);
+            if (watch_.before)
+                watch_.before(next->edit.place.step, progress.part(0.0, kBeforeEdit));
             const EditId id = next->edit.edit.id;
-            static_cast<void>(session_.scene_after(id, progress));
+            static_cast<void>(session_.scene_after(id, progress.part(kBeforeEdit, 1.0)));
             for (const LogEntry& entry : session_.log()) {
                 if (entry.edit.edit.id != id) continue;
                 if (entry.status == EditStatus::Done) tell_(entry_text(entry));

@@ -55,7 +55,8 @@ struct RecipeWarning {
 
 /// Who watches a recipe's edits; each may be empty. What they throw ends the recipe.
 struct RecipeWatch {
-    std::function<void(Step)> before;            ///< an edit of this step is about to run
+    /// An edit of this step is about to run; the progress is for what is done before it.
+    std::function<void(Step, const Progress&)> before;
     std::function<void(const LogEntry&)> after;  ///< an edit has run, or no longer applies
     std::function<void(const RecipeWarning&)> warned;
 };

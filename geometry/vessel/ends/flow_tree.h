@@ -40,8 +40,15 @@ struct SharedVessel {
                                                                   std::size_t tip);
 
 /// How the flow of a tip divides among others: at each furcation, the vessels behind it that lead
-/// to one of them share by a power of their diameters along their courses. With 3 the shear is the
-/// same in all (Murray 1926). \param inlet, outlets nodes of the graph
+/// to one of them share by a power of their diameters along their courses. Blood takes the shortest
+/// way to each node only: where vessels form a ring, as in a circle of Willis, the other way round
+/// carries nothing.
+/// Sources: exponent 2: Chnafa, Brina, Pereira, Steinman, "Better than nothing: a rational approach
+/// for minimizing the impact of outflow strategy on cerebrovascular simulations", AJNR 39, 2018;
+/// exponent 3, with which the shear is the same in all: Murray, "The physiological principle of
+/// minimum work", PNAS 12, 1926.
+/// \param inlet, outlets nodes of the graph
+/// \param exponent of the diameters [-], >= 0; 0: vessels behind a furcation share alike
 /// \return shares of the outlets, in their order [-]; 0 where no line leads to one
 [[nodiscard]] std::vector<double> shares_of_outlets(const CenterlineGraph& graph, std::size_t inlet,
                                                     std::span<const std::size_t> outlets,
