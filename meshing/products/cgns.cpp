@@ -9,6 +9,7 @@
 #include <dlfcn.h>
 
 #include "geometry/formats/comment_line.h"
+#include "geometry/kernel/bare_name.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/pending_files.h"
 #include "geometry/kernel/plain_name.h"
@@ -28,8 +29,8 @@ constexpr const char* kLibrary = "libcgns.so.3.4";
 
 /// Null if it is not installed.
 void* library() {
-    static void* const loaded = dlopen(kLibrary, RTLD_NOW | RTLD_LOCAL);
-    return loaded;
+    static void* const opened = dlopen(kLibrary, RTLD_NOW | RTLD_LOCAL);
+    return opened;
 }
 
 /// A function of the CGNS library, which is loaded where a file is written: it brings some thirty
@@ -134,7 +135,8 @@ public:
 private:
     void check(int error) const {
         if (error != CG_OK)
-            throw IoError("CGNS: cannot write " + target_ + ": " + LOADED(cg_get_error)());
+            throw IoError("'" + bare_name(target_) +
+                          "' cannot be written as CGNS: " + LOADED(cg_get_error)());
     }
 
     decltype(cg_close)* close_ = loaded<decltype(cg_close)>("cg_close");
