@@ -27,19 +27,19 @@ constexpr float kLength[] = {0, 1, 0, 0, 0};
 
 constexpr const char* kLibrary = "libcgns.so.3.4";
 
-/// Null if it is not installed.
+/// Null if it is not installed. The system opens it once, however often it is asked for.
 void* library() {
-    static void* const opened = dlopen(kLibrary, RTLD_NOW | RTLD_LOCAL);
-    return opened;
+    return dlopen(kLibrary, RTLD_NOW | RTLD_LOCAL);
 }
 
 /// A function of the CGNS library, which is loaded where a file is written: it brings some thirty
 /// others, among them HDF5 and what reads files over a network.
 template <class Function>
 Function* loaded(const char* name) {
-    if (library() == nullptr)
+    void* const opened = library();
+    if (opened == nullptr)
         throw IoError("CGNS: its library is missing here: install the package libcgns3.4");
-    void* const found = dlsym(library(), name);
+    void* const found = dlsym(opened, name);
     if (found == nullptr)
         throw IoError(std::string("CGNS: ") + kLibrary + " lacks " + name +
                       ": install the package libcgns3.4 again");
