@@ -205,8 +205,7 @@ constexpr CatalogueText kTexts[] = {
      "choose another {fix}"},
     {"wall-torn",
      "the surface is no vessel's wall: its {triangles#triangle} would have {lines#line}; the file "
-     "is "
-     "damaged: copy or export it again"},
+     "is damaged: copy or export it again"},
     {"no-centerline",
      "no centerline found: the lumen is thinner than the search grid, or not closed; use {fix} "
      "first, or {fix2} to keep the vessels of interest only"},

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <mutex>
 #include <set>
+#include <utility>
 
 #include <cgnslib.h>
 #include <dlfcn.h>
 
 #include "geometry/formats/comment_line.h"
+#include "geometry/kernel/bare_name.h"
 #include "geometry/kernel/errors.h"
 #include "geometry/kernel/pending_files.h"
 #include "geometry/kernel/plain_name.h"
@@ -23,33 +25,41 @@ constexpr std::size_t kLongestName = 32;
 /// Exponents of mass, length, time, temperature and angle.
 constexpr float kLength[] = {0, 1, 0, 0, 0};
 
+constexpr const char* kLibrary = "libcgns.so.3.4";
+
+/// Null if it is not installed. The system opens it once, however often it is asked for.
+void* library() {
+    return dlopen(kLibrary, RTLD_NOW | RTLD_LOCAL);
+}
+
 /// A function of the CGNS library, which is loaded where a file is written: it brings some thirty
 /// others, among them HDF5 and what reads files over a network.
 template <class Function>
 Function* loaded(const char* name) {
-    static void* const library = dlopen("libcgns.so.3.4", RTLD_NOW | RTLD_LOCAL);
-    if (library == nullptr)
+    void* const opened = library();
+    if (opened == nullptr)
         throw IoError("CGNS: its library is missing here: install the package libcgns3.4");
-    return reinterpret_cast<Function*>(dlsym(library, name));
+    void* const found = dlsym(opened, name);
+    if (found == nullptr)
+        throw IoError(std::string("CGNS: ") + kLibrary + " lacks " + name +
+                      ": install the package libcgns3.4 again");
+    return reinterpret_cast<Function*>(found);
 }
 
 // NOLINTNEXTLINE(cppcoreguidelines-macro-usage): a function's type and its name
 #define LOADED(function) (*loaded<decltype(function)>(#function))
 
-void check(int error) {
-    if (error != CG_OK) throw IoError(std::string("CGNS: ") + LOADED(cg_get_error)());
-}
-
 /// A file that is being written: its one base and zone have the number 1.
 class CgnsFile {
 public:
-    explicit CgnsFile(const std::string& path) {
+    /// \param target what the file at `path` will be: errors name it
+    CgnsFile(const std::string& path, std::string target) : target_(std::move(target)) {
         check(LOADED(cg_set_file_type)(CG_FILE_HDF5));
         check(LOADED(cg_open)(path.c_str(), CG_MODE_WRITE, &number_));
     }
 
     ~CgnsFile() {
-        if (open_) LOADED(cg_close)(number_);
+        if (open_) close_(number_);
     }
 
     CgnsFile(const CgnsFile&) = delete;
@@ -58,7 +68,7 @@ public:
     /// Whatever a buffer held back may fail here.
     void close() {
         open_ = false;
-        check(LOADED(cg_close)(number_));
+        check(close_(number_));
     }
 
     void add_base(const std::string& provenance) {
@@ -123,15 +133,25 @@ public:
     [[nodiscard]] cgsize_t elements() const { return elements_; }
 
 private:
+    void check(int error) const {
+        if (error != CG_OK)
+            throw IoError("'" + bare_name(target_) +
+                          "' cannot be written as CGNS: " + LOADED(cg_get_error)());
+    }
+
+    decltype(cg_close)* close_ = loaded<decltype(cg_close)>("cg_close");
+    std::string target_;
     int number_ = 0;
     bool open_ = true;
     cgsize_t elements_ = 0;  // added so far
 };
 
-/// Names of at most 32 characters that differ from each other.
+/// Names of at most 32 characters that differ from each other and from those of the other nodes
+/// beside them, and that HDF5 does not take for a path.
 class ShortNames {
 public:
-    std::string add(const std::string& name) {
+    std::string add(std::string name) {
+        if (name == "." || name == "..") name.assign(name.size(), '_');
         std::string made = name.substr(0, kLongestName);
         for (int number = 2; !taken_.insert(made).second; ++number) {
             const std::string end = "_" + std::to_string(number);
@@ -141,7 +161,8 @@ public:
     }
 
 private:
-    std::set<std::string> taken_;
+    std::set<std::string> taken_ = {"lumen",    "Provenance",      "DataClass", "DimensionalUnits",
+                                    "ZoneType", "GridCoordinates", "ZoneBC"};
 };
 
 CGNS_ENUMT(BCType_t) condition_for(PatchKind kind) {
@@ -166,6 +187,7 @@ std::vector<Corners> faces_of_patch(const std::vector<Corners>& faces, const Pat
     return own;
 }
 
+/// PENTA_6 (SIDS, 3.3): seen from nodes 4, 5, 6, the nodes 1, 2, 3 run counter-clockwise.
 std::vector<Prism> inner_first(std::vector<Prism> prisms) {
     for (auto& [a, b, c, d, e, f] : prisms) {
         std::swap(a, d);
@@ -193,6 +215,10 @@ void add_patches(CgnsFile& file, const VolumeMesh& mesh, ShortNames& names,
 
 }  // namespace
 
+bool cgns_installed() {
+    return library() != nullptr;
+}
+
 void write_cgns(const VolumeMesh& mesh, const std::string& path, const Progress& progress,
                 const std::string& provenance) {
     if (mesh.tetrahedra.empty()) throw InvalidInput("CGNS: the volume mesh has no cells");
@@ -201,7 +227,7 @@ void write_cgns(const VolumeMesh& mesh, const std::string& path, const Progress&
     const std::lock_guard lock(one_writer);
     progress.report(0.0, writing_text(path));
     PendingFiles pending;
-    CgnsFile file(pending.add(path).string());
+    CgnsFile file(pending.add(path).string(), path);
     file.add_base(provenance);
     file.add_zone(mesh);
     progress.report(0.3, writing_text(path));

@@ -136,8 +136,10 @@ void put_faces(TextBuffer& out, const VolumeMesh& mesh, const std::vector<MeshFa
                LoopProgress& rows) {
     begin(out, kFaces, 0, 1, faces.size());
     out << " 0))\n";
-    TextBuffer names;
-    put_zone_name(names, kCellZone, "fluid", "lumen");
+    TextBuffer zones;
+    PlainNames names;
+    put_zone_name(zones, kCellZone, "fluid", names.add("lumen"));
+    const std::string inner_name = names.add("interior-lumen");
     for (std::size_t first = 0, last = 0; first < faces.size(); first = last) {
         while (last < faces.size() && same_zone(faces[first], faces[last])) ++last;
         const MeshFace& face = faces[first];
@@ -145,10 +147,10 @@ void put_faces(TextBuffer& out, const VolumeMesh& mesh, const std::vector<MeshFa
         const std::size_t zone = inner ? kInnerZone : kFirstPatchZone + face.patch;
         const ZoneType type = inner ? kInterior : zone_type(mesh.patches[face.patch].kind);
         put_face_zone(out, std::span(faces).subspan(first, last - first), first, zone, type, rows);
-        put_zone_name(names, zone, type.name,
-                      inner ? "interior-lumen" : std::string_view(mesh.patches[face.patch].name));
+        put_zone_name(zones, zone, type.name,
+                      inner ? inner_name : names.add(mesh.patches[face.patch].name));
     }
-    out << names.text();
+    out << zones.text();
 }
 
 }  // namespace
@@ -157,7 +159,7 @@ void write_fluent(const VolumeMesh& mesh, const std::string& path, const Progres
                   const std::string& provenance) {
     if (mesh.tetrahedra.empty()) throw InvalidInput("Fluent: the volume mesh has no cells");
     require_plain_names(mesh.patches);
-    const std::vector<MeshFace> faces = mesh_faces(mesh);
+    const std::vector<MeshFace> faces = mesh_faces(mesh, cell_neighbours(mesh, progress));
     TextBuffer out;
     out << "(0 \"lengths in m";
     if (!provenance.empty()) out << ". " << comment_text(provenance);

@@ -1,8 +1,11 @@
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <map>
+#include <utility>
 
 #include <catch2/catch.hpp>
 #include <vtkCGNSReader.h>
@@ -68,16 +71,25 @@ Corners corners_of(vtkCell& cell) {
     return corners;
 }
 
+/// What is known of the order of a wedge's corners.
+enum class Wedges : std::uint8_t {
+    Penta6,   ///< that of the file, which is CGNS's: (2-1) x (3-1) points from node 1 to 4
+    AsBuilt,  ///< that in which VTK put the faces together
+};
+
 /// The volume or area that the mesh's own measures give a cell of VTK.
-double size_of(const Positions& points, vtkCell& cell) {
+double size_of(const Positions& points, vtkCell& cell, Wedges wedges) {
     switch (cell.GetCellType()) {
         case VTK_TETRA: {
             const auto [a, b, c, d] = corners_of<Tetrahedron>(cell);
             return (points[b] - points[a]).cross(points[c] - points[a]).dot(points[d] - points[a]) /
                    6.0;
         }
-        case VTK_WEDGE:  // VTK leaves them in the order of the file
-            return std::abs(prism_volume(points, corners_of<Prism>(cell)));
+        case VTK_WEDGE: {
+            const auto [a, b, c, d, e, f] = corners_of<Prism>(cell);
+            if (wedges == Wedges::Penta6) return prism_volume(points, {d, e, f, a, b, c});
+            return std::abs(prism_volume(points, {a, b, c, d, e, f}));
+        }
         case VTK_QUAD:
             return 0.5 * face_normal(points, corners_of<Quadrilateral>(cell)).norm();
         case VTK_TRIANGLE:
@@ -88,7 +100,7 @@ double size_of(const Positions& points, vtkCell& cell) {
     }
 }
 
-Part part_of(vtkDataSet& data) {
+Part part_of(vtkDataSet& data, Wedges wedges) {
     Positions points(static_cast<std::size_t>(data.GetNumberOfPoints()));
     for (std::size_t v = 0; v < points.size(); ++v) {
         data.GetPoint(static_cast<vtkIdType>(v), points[v].data());
@@ -96,20 +108,33 @@ Part part_of(vtkDataSet& data) {
     }
     Part part;
     for (vtkIdType c = 0; c < data.GetNumberOfCells(); ++c)
-        part.add(size_of(points, *data.GetCell(c)));
+        part.add(size_of(points, *data.GetCell(c), wedges));
     return part;
 }
 
 /// The parts that VTK read, by the names of their blocks.
-Parts parts_of(vtkMultiBlockDataSet& blocks) {
+Parts parts_of(vtkMultiBlockDataSet& blocks, Wedges wedges = Wedges::AsBuilt) {
     Parts parts;
     const auto it = vtkSmartPointer<vtkCompositeDataIterator>::Take(blocks.NewIterator());
     for (it->InitTraversal(); !it->IsDoneWithTraversal(); it->GoToNextItem()) {
         auto* data = vtkDataSet::SafeDownCast(it->GetCurrentDataObject());
         const char* name = it->GetCurrentMetaData()->Get(vtkCompositeDataSet::NAME());
-        if (data && data->GetNumberOfCells() > 0) parts[name ? name : ""] = part_of(*data);
+        if (data && data->GetNumberOfCells() > 0) parts[name ? name : ""] = part_of(*data, wedges);
     }
     return parts;
+}
+
+Parts parts_of_cgns(const std::string& path) {
+    vtkNew<vtkCGNSReader> reader;
+    reader->SetFileName(path.c_str());
+    reader->LoadBndPatchOn();
+    reader->UpdateInformation();
+    reader->EnableAllBases();
+    reader->EnableAllFamilies();
+    reader->Update();
+    Parts read = parts_of(*reader->GetOutput(), Wedges::Penta6);
+    if (read.contains("Internal")) read["lumen"] = read.extract("Internal").mapped();
+    return read;
 }
 
 void check_same(const Parts& read, const Parts& written, double tolerance) {
@@ -161,16 +186,7 @@ SCENARIO("A CGNS file holds cells, patches and their areas", "[meshing][products
         "vesselbench 0.2.0; case 'Aneurysm, left' (mm), accepted by A. Kern <a@b.c>, sha256:0ab");
     INFO((layers ? "with" : "without") << " wall layers");
     THEN("VTK reads them") {
-        vtkNew<vtkCGNSReader> reader;
-        reader->SetFileName(path.c_str());
-        reader->LoadBndPatchOn();
-        reader->UpdateInformation();
-        reader->EnableAllBases();
-        reader->EnableAllFamilies();
-        reader->Update();
-        Parts read = parts_of(*reader->GetOutput());
-        if (read.contains("Internal")) read["lumen"] = read.extract("Internal").mapped();
-        check_same(read, parts_of(mesh), kExact);
+        check_same(parts_of_cgns(path), parts_of(mesh), kExact);
     }
     THEN("cgnscheck finds nothing to complain about") {
         const auto run = test::run_command("cgnscheck", {path});
@@ -234,4 +250,37 @@ SCENARIO("Solvers' files need cells, and short names in CGNS", "[meshing][produc
     if (!run) return;
     CHECK(run->exit_code == 0);
     CHECK(run->output.find(std::string(30, 'a') + "_2") != std::string::npos);
+}
+
+SCENARIO("Patches may have the names that a solver's file has for other things",
+         "[meshing][products]") {
+    const std::string folder = test::temporary_folder();
+    VolumeMesh mesh = mesh_of(false);
+    REQUIRE(mesh.patches.size() == 3);
+    const auto named = [&](const std::array<const char*, 3>& names) {
+        for (std::size_t k = 0; k < names.size(); ++k) mesh.patches[k].name = names[k];
+    };
+    GIVEN("names of CGNS's nodes and of HDF5's folders") {
+        using Names = std::array<const char*, 3>;
+        const auto [names, written] =
+            GENERATE(std::pair(Names{".", "..", "lumen"}, Names{"_", "__", "lumen_2"}),
+                     std::pair(Names{"ZoneType", "ZoneBC", "GridCoordinates"},
+                               Names{"ZoneType_2", "ZoneBC_2", "GridCoordinates_2"}),
+                     std::pair(Names{"Provenance", "DataClass", "DimensionalUnits"},
+                               Names{"Provenance_2", "DataClass_2", "DimensionalUnits_2"}));
+        named(names);
+        write_cgns(mesh, folder + "/names.cgns", {}, "vesselbench");
+        named(written);
+        check_same(parts_of_cgns(folder + "/names.cgns"), parts_of(mesh), kExact);
+    }
+    GIVEN("names of Fluent's zones") {
+        named({"lumen", "interior-lumen", "outlet"});
+        write_fluent(mesh, folder + "/names.fluent.msh");
+        std::ifstream file(folder + "/names.fluent.msh");
+        const std::string text{std::istreambuf_iterator<char>(file), {}};
+        for (const char* name : {" lumen)", " lumen_2)", " interior-lumen)", " interior-lumen_2)"})
+            CHECK(text.find(name) != std::string::npos);
+        CHECK(text.find(" lumen)") == text.rfind(" lumen)"));
+        CHECK(text.find(" interior-lumen)") == text.rfind(" interior-lumen)"));
+    }
 }

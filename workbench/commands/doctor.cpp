@@ -13,6 +13,7 @@
 #include "geometry/kernel/wording.h"
 #include "gpu/context.h"
 #include "gpu/device.h"
+#include "meshing/products/cgns.h"
 #include "workbench/case/json_text.h"
 #include "workbench/case/version.h"
 #include "workbench/commands/commands.h"
@@ -119,6 +120,12 @@ Check program_check(const std::string& name, const std::string& program,
     return {name, "not found", lacking};
 }
 
+Check cgns_check() {
+    const bool found = cgns_installed();
+    return {"CGNS", found ? "its library" : "not found",
+            found ? "" : "`export` writes no CGNS files: apt install libcgns3.4"};
+}
+
 Check bundled_check() {
     const bool found = !bundled_case("aneurysm").empty();
     return {"bundled case", found ? "aneurysm" : "not found",
@@ -148,6 +155,7 @@ std::vector<Check> checks() {
                           "cases are written, but cannot be run here: apt install openfoam"),
             program_check("OpenSSH", "ssh-keygen",
                           "signatures cannot be verified: apt install openssh-client"),
+            cgns_check(),
             crash_check()};
 }
 

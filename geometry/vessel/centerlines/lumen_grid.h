@@ -61,6 +61,7 @@ enum class InsideRule : std::uint8_t {
 
 /// Voxels of the grid that `voxelise` makes around such a box, a border included. Not limited by
 /// what an integer can hold.
+/// \param box, spacing [mm]
 [[nodiscard]] double voxel_count(const Eigen::AlignedBox3d& box, double spacing);
 
 /// Voxels with their centre inside the closed triangles (majority of the scan lines of three axes,
