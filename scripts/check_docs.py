@@ -136,7 +136,8 @@ class Program:
     @functools.lru_cache(maxsize=None)
     def operations(self):
         """The parameters of each operation; openfoam's are those that `export` names."""
-        found = {"openfoam": {"density", "viscosity", "flow", "inlet_flows", "profile", "iterations", "residual", "processes"}}
+        flow = re.search(r"--set openfoam\.([\w,\s]+);", self.help("export", "--help"))
+        found = {"openfoam": set(re.findall(r"\w+", flow[1])) if flow else set()}
         for operation in json.loads(self.help("operations", "--json"))["operations"]:
             found[operation["name"]] = {parameter["name"] for parameter in operation["parameters"]}
         return found

@@ -57,7 +57,7 @@ const std::vector<VolumeFormat>& volume_formats() {
 const std::vector<CaseFormat>& case_formats() {
     static const std::vector<CaseFormat> rows = {{{.name = "OpenFOAM",
                                                    .kind = FormatKind::VolumeMesh,
-                                                   .content = "a case for simpleFoam",
+                                                   .content = "a case for simpleFoam or pimpleFoam",
                                                    .unit = "m",
                                                    .folder = "for an OpenFOAM case"},
                                                   write_openfoam_case}};

@@ -69,7 +69,8 @@ class Pages(unittest.TestCase):
     def test_commands_that_do_not_exist_are_faults(self):
         for command in ("vesselbench none", "vesselbench log P --none", "vesselbench --none", "cd a && vesselbench none",
                         "vesselbench apply P none", "vesselbench apply P smooth none=1",
-                        "vesselbench prepare a --set remesh.none=1", "scripts/none", "scripts/check --none"):
+                        "vesselbench prepare a --set remesh.none=1", "vesselbench prepare a --set openfoam.none=1",
+                        "scripts/none", "scripts/check --none"):
             with self.subTest(command):
                 page = self.write("```sh", command, "```")
                 self.assertEqual(len(list(check_docs.block_faults(page, PROGRAM))), 1)

@@ -122,7 +122,7 @@ Check program_check(const std::string& name, const std::string& program,
 
 Check cgns_check() {
     const bool found = cgns_installed();
-    return {"CGNS", found ? "its library" : "not found",
+    return {"CGNS", found ? "found" : "not found",
             found ? "" : "`export` writes no CGNS files: apt install libcgns3.4"};
 }
 

@@ -1,20 +1,37 @@
 #include "workbench/commands/project_commands.h"
 
 #include <memory>
+#include <string>
+#include <utility>
 
 #include "geometry/kernel/wording.h"
 #include "workbench/colours/shown_measure.h"
 #include "workbench/export/export_formats.h"
+#include "workbench/export/flow_parameters.h"
 
 namespace vesselbench {
 
 namespace {
 
+/// "OpenFOAM takes --set openfoam.flow, split, ...", in lines of a terminal's width.
+std::string flow_parameters_text() {
+    constexpr std::size_t kWidth = 88;
+    std::string text, line = "OpenFOAM takes --set openfoam.";
+    for (const Parameter& parameter : flow_parameters()) {
+        if (line.size() + parameter.name.size() > kWidth) {
+            line.back() = '\n';
+            text += std::exchange(line, "");
+        }
+        line += parameter.name + ", ";
+    }
+    text += line;
+    text.replace(text.size() - 2, 2, "; --set may be repeated.");
+    return text;
+}
+
 std::string export_footer() {
     return "Formats by suffix, with the unit of length:\n" + export_formats_text() +
-           "OpenFOAM takes --set openfoam.density, viscosity, flow, profile, iterations, "
-           "residual,\n"
-           "processes; --set may be repeated.";
+           flow_parameters_text();
 }
 
 constexpr const char* kChangeFooter =

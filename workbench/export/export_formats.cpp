@@ -126,9 +126,15 @@ const std::vector<ExportFormat>& export_formats() {
 }
 
 std::string export_formats_text() {
+    const auto suffixes = [](const ExportFormat& row) {
+        return row.folder.empty() ? joined(row.suffixes, " ") : "folder";
+    };
+    std::size_t width = 0;
+    for (const ExportFormat& row : export_formats())
+        width = std::max(width, suffixes(row).size() + 2);
     std::string text;
     for (const ExportFormat& row : export_formats())
-        text += "  " + padded(row.folder.empty() ? joined(row.suffixes, " ") : "folder", 8) +
+        text += "  " + padded(suffixes(row), width) +
                 padded(row.kind == FormatKind::Surface ? "surface" : "volume mesh", 13) +
                 padded(row.unit, 4) + row.name + ": " + row.content + "\n";
     return text;
