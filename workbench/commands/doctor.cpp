@@ -13,12 +13,12 @@
 #include "geometry/kernel/wording.h"
 #include "gpu/context.h"
 #include "gpu/device.h"
-#include "meshing/products/cgns.h"
 #include "workbench/case/json_text.h"
 #include "workbench/case/version.h"
 #include "workbench/commands/commands.h"
 #include "workbench/commands/console/console.h"
 #include "workbench/commands/console/crash_report.h"
+#include "workbench/export/export_formats.h"
 #include "workbench/flow/solver_process.h"
 #include "workbench/prepare/bundled_cases.h"
 #include "workbench/review/page_file.h"
@@ -121,7 +121,7 @@ Check program_check(const std::string& name, const std::string& program,
 }
 
 Check cgns_check() {
-    const bool found = cgns_installed();
+    const bool found = can_write_cgns();
     return {"CGNS", found ? "found" : "not found",
             found ? "" : "`export` writes no CGNS files: apt install libcgns3.4"};
 }

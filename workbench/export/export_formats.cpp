@@ -7,6 +7,7 @@
 #include "geometry/kernel/diagnosed_error.h"
 #include "geometry/kernel/whole_file.h"
 #include "geometry/kernel/wording.h"
+#include "meshing/products/cgns.h"
 #include "meshing/products/glb.h"
 #include "meshing/products/product_formats.h"
 #include "workbench/colours/shown_measure.h"
@@ -138,6 +139,10 @@ std::string export_formats_text() {
                 padded(row.kind == FormatKind::Surface ? "surface" : "volume mesh", 13) +
                 padded(row.unit, 4) + row.name + ": " + row.content + "\n";
     return text;
+}
+
+bool can_write_cgns() {
+    return cgns_installed();
 }
 
 std::string input_formats_text() {

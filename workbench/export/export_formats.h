@@ -41,6 +41,9 @@ struct ExportFormat : Format {
 /// The table of these formats for the help of `export`: a line each with suffix, content and unit.
 [[nodiscard]] std::string export_formats_text();
 
+/// Whether the library that writes CGNS files is installed; the other formats need none.
+[[nodiscard]] bool can_write_cgns();
+
 /// The surface and image formats that are read, for help texts: two lines.
 [[nodiscard]] std::string input_formats_text();
 
