@@ -38,6 +38,8 @@ struct RecordedWaveform {
     double period = 0.0;     ///< [s]
     int periods = 0;         ///< computed; the last one counts
     int steps = 0;           ///< of time in a period
+
+    [[nodiscard]] int all_steps() const { return periods * steps; }
 };
 
 /// Where a solver's case comes from.

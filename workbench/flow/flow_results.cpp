@@ -174,10 +174,10 @@ void end_history(FlowHistory& history, int last) {
 /// \throw InvalidInput if the last period of a pulsatile flow is not computed to its end
 void require_whole_cycle(const FlowCase& flow, double time) {
     const auto& wave = flow.record.waveform;
-    if (!wave || flow.record.steps_until(time) >= wave->periods * wave->steps) return;
+    if (!wave || flow.record.steps_until(time) >= wave->all_steps()) return;
     throw InvalidInput("'" + bare_name(flow.folder) + "' has been run to step " +
                        std::to_string(flow.record.steps_until(time)) + " of " +
-                       std::to_string(wave->periods * wave->steps) +
+                       std::to_string(wave->all_steps()) +
                        ": `vesselbench run` goes on there; figures are of the last period");
 }
 

@@ -101,8 +101,7 @@ public:
 private:
     /// A pulsatile flow goes on to its end.
     void look_at_step(const FlowHistory& history, const Settling& settling) const {
-        const RecordedWaveform& wave = *flow_.record.waveform;
-        const int step = history.iterations.back(), all = wave.periods * wave.steps;
+        const int step = history.iterations.back(), all = flow_.record.waveform->all_steps();
         progress_.report(std::min(1.0, static_cast<double>(step) / all),
                          "step " + std::to_string(step) + " of " + std::to_string(all) +
                              formatted(settling.residual, ", residual %.1e"));
@@ -153,7 +152,7 @@ FlowRun flow_run_of(const FlowCase& flow, const SettlingLimits& limits) {
     FlowRun run{.iterations = last_iteration(history),
                 .settling = settling_of(history, flow.record, limits)};
     if (const auto& wave = flow.record.waveform)
-        run.converged = run.iterations >= wave->periods * wave->steps;
+        run.converged = run.iterations >= wave->all_steps();
     else
         run.converged = run.settling.settled || has_reached_residuals(flow.folder);
     return run;

@@ -4,6 +4,7 @@
 
 #include "geometry/kernel/bare_name.h"
 #include "geometry/kernel/wording.h"
+#include "meshing/products/cfd_parameters.h"
 #include "workbench/case/version.h"
 #include "workbench/flow/methods_text.h"
 
@@ -32,10 +33,15 @@ Json flow_case_json(const FlowResults& results) {
             {"profile", record.parabolic ? "parabolic" : "plug"}};
 }
 
+/// "OpenFOAM 1912 simpleFoam"
+std::string program_text(const FlowResults& results) {
+    return results.solver + " " + solver_name(results.flow.record.waveform.has_value());
+}
+
 Json pulsatile_json(const FlowResults& results) {
     const RecordedWaveform& wave = *results.flow.record.waveform;
     Json json = {{"kind", "pulsatile"},
-                 {"solver", results.solver + " pimpleFoam"},
+                 {"solver", program_text(results)},
                  {"waveform", wave.synthetic ? "synthetic" : "file"},
                  {"period_s", wave.period},
                  {"periods", wave.periods},
@@ -50,7 +56,7 @@ Json pulsatile_json(const FlowResults& results) {
 Json solution_json(const FlowResults& results) {
     if (results.flow.record.waveform) return pulsatile_json(results);
     return {{"kind", "steady"},
-            {"solver", results.solver + " simpleFoam"},
+            {"solver", program_text(results)},
             {"converged", results.converged},
             {"ended_by", results.settling.settled ? "figures"
                          : results.converged      ? "residuals"
